@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the pieces of a solution that the ranks of an example wrote, all in one picture.
+"""Draws the pieces of a solution that the ranks of an example have written, in one picture.
 usage: draw_pieces.py [--field NAME] [--wire] [--log] [--limits LOW HIGH] [--zoom X0 X1 Y0 Y1]
                       PIECES.vtk... PICTURE.png
-  --field   what gives the colour: a scalar field of the pieces, or "rank" (without: their first)
-  --wire    draw the edges of the triangles, too
-  --log     colours by the logarithm of the field
-  --limits  of the colours; without: the field's least and greatest value
-  --zoom    a second panel beside, with this part of it enlarged
+  --field   the scalar field that is drawn, or "rank" (default: the first field of the pieces)
+  --wire    also draw the edges of the triangles
+  --log     scale the colours by the logarithm of the field
+  --limits  the range of the colours (default: from the least to the greatest value of the field)
+  --zoom    draw this part of the picture, enlarged, in a second panel
 A piece is a file in VTK's legacy format (ASCII, unstructured grid, triangles, scalars at the
-points); its rank is the number that its name ends with. A picture that ends in .png has at most
-256 colours, which keeps it small. Needs numpy and matplotlib (and Pillow, which comes with it)."""
+points). Its rank is the number at the end of its name. A .png picture has at most 256 colours,
+which keeps the file small. Requires numpy and matplotlib (and Pillow, on which that depends)."""
 import argparse
 import re
 import sys
@@ -26,7 +26,7 @@ from PIL import Image
 
 
 class Piece:
-    """A piece from one file: points [n, 2], triangles [m, 3], fields {name: [n]}, rank."""
+    """The data of one file: points [n, 2], triangles [m, 3], fields {name: [n]}, and the rank."""
 
     def __init__(self, path):
         number = re.search(r"(\d+)\.vtk$", path)
@@ -67,7 +67,7 @@ class Piece:
             self.next()
         elif keyword == "SCALARS":
             name, _ = self.next(), self.next()
-            if self.next() != "LOOKUP_TABLE":  # the number of components may precede it
+            if self.next() != "LOOKUP_TABLE":  # an optional number of components precedes it
                 self.next()
             self.next()
             self.fields[name] = self.numbers(len(self.points))
@@ -76,7 +76,7 @@ class Piece:
 
 
 def colours_of_ranks(pieces):
-    """Returns a colour scale with one colour for each rank."""
+    """Returns a colour map with one colour per rank, and its norm."""
     ranks = max(piece.rank for piece in pieces) + 1
     colours = plt.get_cmap("tab10" if ranks <= 10 else "tab20")
     scale = ListedColormap([colours(r % colours.N) for r in range(ranks)])
@@ -87,8 +87,7 @@ def colours_of_field(pieces, field, limits, log):
     values = np.concatenate([piece.fields[field][np.unique(piece.triangles)] for piece in pieces])
     low, high = limits or (values.min(), values.max())
     if log:
-        # Smaller values have the same colour, as zero has no logarithm.
-        low = max(low, 1e-4 * high)
+        low = max(low, 1e-4 * high)  # smaller values, also zero, are drawn with this one
         return plt.get_cmap("viridis"), LogNorm(low, high)
     return plt.get_cmap("viridis"), Normalize(low, high)
 

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> PNPBS - parallel node placement by bubble simulation: the Fortran 2003 module.
 !>
-!> It corresponds to the C interface (pnpbs/pnpbs.h), which explains the terms node, spacing,
-!> boundary, tag, adjacency and star. A page with an example: docs/fortran.md.
+!> The module corresponds to the C interface (pnpbs/pnpbs.h), which defines the terms node, spacing,
+!> boundary, tag, adjacency and star. docs/fortran.md has an example.
 !>
 !> Conventions of every procedure
 !>   stat        optional: an integer of four or eight bytes, set to the outcome: PNPBS_OK (0), > 0
@@ -11,12 +11,13 @@
 !>               with exit status 1; outcomes > 0 do not.
 !>   errmsg      optional: set to the message of an error; otherwise unchanged.
 !>   collective  "Collective" procedures must be called by all ranks of the context, in the same
-!>               order, and have the same outcome on all of them. "Local" ones need not.
+!>               order, and have the same outcome on all of them. "Local" ones may be called by any
+!>               rank.
 !>   arrays      belong to the caller, are read or filled during the call, and are never kept.
 !>               Coordinates are (dim, n) with dim = 2 in the plane, 3 in space and on a sphere;
-!>               other rows are PNPBS_ERROR_ARGUMENT. Arrays to fill may have more room than
-!>               needed; too little is PNPBS_ERROR_CAPACITY. Arrays to fill and optional arrays must
-!>               be contiguous in memory: whole ones, or sections x(i:j) and x(:,i:j) of such.
+!>               another number of rows is PNPBS_ERROR_ARGUMENT. Output arrays may be larger than
+!>               needed; too small ones are PNPBS_ERROR_CAPACITY. Output arrays and optional arrays
+!>               must be contiguous in memory: whole arrays, or their sections x(i:j) and x(:,i:j).
 !>   dimension   procedures for domains or placements "in the plane" or "in space" reject others
 !>               with PNPBS_ERROR_ARGUMENT; all others are for both.
 !>   integers    ids, counts, indices and offsets are integer(c_int64_t), the others
@@ -87,7 +88,7 @@ module pnpbs
     procedure :: from_handle => context_from_handle
   end type
 
-  !> The domain to be filled with nodes.
+  !> A domain, which is filled with nodes.
   type :: pnpbs_domain
     private
     type(c_ptr) :: c = c_null_ptr
@@ -134,7 +135,7 @@ module pnpbs
     procedure :: from_handle => domain_from_handle
   end type
 
-  !> The nodes.
+  !> A placement: the nodes in a domain, and the runs that compute them.
   type :: pnpbs_placement
     private
     type(c_ptr) :: c = c_null_ptr
@@ -239,7 +240,7 @@ module pnpbs
     procedure :: from_handle => placement_from_handle
   end type
 
-  !> A field that is transferred to other nodes.
+  !> A transfer of a field to other nodes.
   type :: pnpbs_transfer
     private
     type(c_ptr) :: c = c_null_ptr
@@ -264,7 +265,7 @@ module pnpbs
     procedure :: from_handle => transfer_from_handle
   end type
 
-  !> A distributed mesh: a rank's nodes, elements and facets, and ghosts around them.
+  !> A distributed mesh: the nodes, elements and facets of a rank, and layers of ghosts.
   type :: pnpbs_mesh
     private
     type(c_ptr) :: c = c_null_ptr
@@ -288,7 +289,7 @@ module pnpbs
     procedure :: from_handle => mesh_from_handle
   end type
 
-  !> Voronoi cells of a rank's nodes: volumes, faces to neighbours, shares of the boundary.
+  !> The Voronoi cells of the nodes of a rank: volumes, faces to neighbours, shares of the boundary.
   type :: pnpbs_voronoi
     private
     type(c_ptr) :: c = c_null_ptr
@@ -302,7 +303,7 @@ module pnpbs
     procedure :: from_handle => voronoi_from_handle
   end type
 
-  !> Particles that fill a body, with their volumes: those of a rank.
+  !> The particles of a rank that fill a body, with their volumes.
   type :: pnpbs_particles
     private
     type(c_ptr) :: c = c_null_ptr
@@ -507,8 +508,8 @@ contains
     end if
   end subroutine
 
-  !> Destroys the context; does nothing if there is none. Its domains and placements remain valid
-  !> until they are destroyed. Collective.
+  !> Destroys the context, if it exists. Its domains and placements remain valid until they are
+  !> destroyed. Collective.
   subroutine context_destroy(self, stat, errmsg)
     class(pnpbs_context), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -556,16 +557,16 @@ contains
     call conclude('context%set', c_context_set_double(self%c, c_text(key), value), stat, errmsg)
   end subroutine
 
-  !> Returns the message of the last error on the context or on its domains and placements; of a
-  !> dead context, that of the calling thread. Local. '' if there was none.
+  !> Returns the message of the last error on the context or on its domains and placements, or '' if
+  !> there was none. For a dead context, returns that of the calling thread. Local.
   function context_last_error(self) result(text)
     class(pnpbs_context), intent(in) :: self
     character(len=:), allocatable :: text
     text = text_of(c_last_error(self%c))
   end function
 
-  !> Returns data of that error: one of PNPBS_REASON_..., and how many points the message names.
-  !> Local.
+  !> Returns data of that error: one of PNPBS_REASON_..., and the number of points that the message
+  !> names. Local.
   subroutine context_last_error_data(self, reason, points)
     class(pnpbs_context), intent(in) :: self
     integer(c_int32_t), intent(out) :: reason
@@ -576,11 +577,11 @@ contains
     if (present(points)) points = named
   end subroutine
 
-  !> Returns a point that the message names; NaN if there is no such point. Local.
+  !> Returns a point that the message names, or NaN if there is no such point. Local.
   !>   index  1 .. points, in the order of the message
-  !>   point  (3), in the plane with NaN behind x and y; on a sphere in space
-  !>   first  of the characters of the message that name it
-  !>   last   likewise
+  !>   point  (3) coordinates; the third is NaN in the plane
+  !>   first  index of the first character of the message that names it
+  !>   last   index of the last one
   subroutine context_last_error_point(self, index, point, first, last)
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     class(pnpbs_context), intent(in) :: self
@@ -599,15 +600,15 @@ contains
     if (present(last)) last = ends
   end subroutine
 
-  !> Returns the handle as an integer, for common blocks and other code without derived types; 0 if
-  !> there is no context. Local.
+  !> Returns the handle as an integer, for COMMON blocks and other code without derived types, or 0
+  !> if there is no context. Local.
   function context_handle(self) result(handle)
     class(pnpbs_context), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the context with the given handle. Local; checks nothing.
+  !> Sets the context to the object with the given handle, without checks. Local.
   subroutine context_from_handle(self, handle)
     class(pnpbs_context), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -632,13 +633,14 @@ contains
 
   !> Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere, spacings are
   !> lengths along it, and points have three coordinates. Boundary curves (add_polyline) follow
-  !> great circles from vertex to vertex; the domain is what lies behind an odd number of them, seen
-  !> from a point outside. Nodes are placed in the stereographic projection from that point, which
-  !> should be ten spacings or more away from the domain. Without a boundary curve the domain is the
-  !> whole sphere, on which nodes around that point are laid first. Placements have triangles and
-  !> boundary edges, as in the plane. Not on a sphere yet: see pnpbs_domain_create_sphere in pnpbs.h. Local.
+  !> great circles from vertex to vertex. The domain lies behind an odd number of them, as seen from
+  !> a point outside. Nodes are placed in the stereographic projection from that point, which should
+  !> be at least ten spacings away from the domain. Without a boundary curve the domain is the whole
+  !> sphere; nodes around that point are laid first and stay fixed then. Placements have triangles
+  !> and boundary edges, as in the plane. pnpbs_domain_create_sphere in pnpbs.h lists the functions
+  !> that are not available on a sphere. Local.
   !>   radius   > 0
-  !>   outside  (3) the direction of a point outside the domain; any length except 0
+  !>   outside  (3) direction of a point outside the domain; any length except 0
   subroutine domain_create_sphere(self, context, radius, outside, stat, errmsg)
     class(pnpbs_domain), intent(inout) :: self
     type(pnpbs_context), intent(in) :: context
@@ -694,7 +696,7 @@ contains
     call conclude('pnpbs_sphere_degrees', status, stat, errmsg, given)
   end subroutine
 
-  !> Destroys the domain; does nothing if there is none. Local.
+  !> Destroys the domain, if it exists. Local.
   subroutine domain_destroy(self, stat, errmsg)
     class(pnpbs_domain), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -703,7 +705,7 @@ contains
   end subroutine
 
   !> Returns the dimension that the domain was created with. Local.
-  !>   dim  2: in the plane, 3: in space
+  !>   dim  2: in the plane, 3: in space and on a sphere
   subroutine domain_dimension(self, dim, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(out) :: dim
@@ -754,9 +756,9 @@ contains
   end subroutine
 
   !> Adds a triangulated surface to a domain in space. Closed surfaces with the role PNPBS_BOUNDARY
-  !> bound the domain: its inside lies behind an odd number of them. PNPBS_INNER: nodes follow the
-  !> surface, closed or open, inside the domain. Coincident vertices are merged; the orientation is
-  !> determined by what the triangles enclose. Local.
+  !> bound the domain: its inside lies behind an odd number of them. Nodes follow surfaces with the
+  !> role PNPBS_INNER, closed or open, inside the domain. Coincident vertices are merged. The
+  !> triangles may have any orientation, because the enclosed volume determines it. Local.
   !>   role           PNPBS_BOUNDARY or PNPBS_INNER
   !>   coordinates    (3, vertices)
   !>   corners        (3, triangles) vertices, counted from 1
@@ -790,10 +792,10 @@ contains
     call conclude('domain%add_surface', status, stat, errmsg, given)
   end subroutine
 
-  !> Reads a surface from a file and adds it as add_surface does: .stl (text or binary), .off, .obj,
-  !> .ply, or TetGen's .poly and .smesh. Solids, groups, materials and facet markers become tags
-  !> with their names (get_tag_name); hole points become holes of the domain in space. Local.
-  !> Errors: PNPBS_ERROR_FILE with file, line and what was expected.
+  !> Reads a surface from a file and adds it as add_surface does. The formats are .stl (text or
+  !> binary), .off, .obj, .ply, and TetGen's .poly and .smesh. Solids, groups, materials and facet
+  !> markers become tags with their names (get_tag_name). Hole points become holes of the domain.
+  !> Local. Errors: PNPBS_ERROR_FILE with file, line and what was expected.
   !>   role           PNPBS_BOUNDARY or PNPBS_INNER
   !>   path           trailing blanks are ignored
   !>   feature_angle  optional, as in add_surface
@@ -809,9 +811,9 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> Sets the role of all triangles with a tag in a domain in space. It overrides the role they are
-  !> added with, before or after, so that single groups of a file can be inner surfaces. Local.
-  !> Checking the domain fails if no triangle has the tag.
+  !> Sets the role of all triangles with a tag in a domain in space. It overrides the role with
+  !> which they are added, before or after this call, so that single groups of a file can be inner
+  !> surfaces. Local. Checking the domain fails if no triangle has the tag.
   !>   tag   nonzero
   !>   role  PNPBS_BOUNDARY or PNPBS_INNER
   subroutine domain_set_role(self, tag, role, stat, errmsg)
@@ -822,10 +824,10 @@ contains
     call conclude('domain%set_role', c_domain_set_role(self%c, tag, role), stat, errmsg)
   end subroutine
 
-  !> Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary and what
-  !> lies in it to the domain: see pnpbs_domain_read_msh in pnpbs.h. The tag of a physical group
-  !> becomes the tag, and its name is kept (get_tag_name). Local. Errors: PNPBS_ERROR_FILE with
-  !> file, line or byte, and what was expected.
+  !> Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary, and the
+  !> curves, surfaces and points inside, to the domain: see pnpbs_domain_read_msh in pnpbs.h. The
+  !> tag of a physical group becomes the tag, and its name is kept (get_tag_name). Local. Errors:
+  !> PNPBS_ERROR_FILE with file, line or byte, and what was expected.
   !>   path           trailing blanks are ignored
   !>   feature_angle  optional, as in add_surface, in the plane as the corner_angle of add_polyline
   subroutine domain_read_msh(self, path, feature_angle, stat, errmsg)
@@ -838,8 +840,8 @@ contains
                   c_domain_read_msh(self%c, c_text(path), angle_or_40(feature_angle)), stat, errmsg)
   end subroutine
 
-  !> Returns the dimension of the domain that a file describes, 2 or 3, from its extension; for
-  !> .poly from the second number in the file, for .msh from whether the mesh lies in a plane of
+  !> Returns the dimension of the domain that a file describes, 2 or 3. The extension determines it.
+  !> For .poly it is the second number in the file; for .msh it is 2 if the mesh lies in a plane of
   !> constant z. Local.
   !>   path  trailing blanks are ignored
   subroutine pnpbs_file_dimension(path, dim, stat, errmsg)
@@ -850,10 +852,10 @@ contains
     call conclude('pnpbs_file_dimension', c_file_dimension(c_text(path), dim), stat, errmsg)
   end subroutine
 
-  !> Sets the name of a tag, which files with physical groups (.msh) contain. Replaces an existing
-  !> name. Local.
-  !>   dim   of the entity with the tag: 0 points, 1 curves, 2 surfaces, 3 bodies; the inside of the
-  !>         domain has the domain's dimension
+  !> Sets the name of a tag, for files with physical groups (.msh). It replaces an existing name.
+  !> Local.
+  !>   dim   of the entity with the tag: 0 points, 1 curves, 2 surfaces, 3 bodies. The inside of the
+  !>         domain has the dimension of the domain
   !>   tag   nonzero
   !>   name  trailing blanks are ignored
   subroutine domain_set_tag_name(self, dim, tag, name, stat, errmsg)
@@ -866,7 +868,7 @@ contains
                   stat, errmsg)
   end subroutine
 
-  !> Returns the number of tags that have names, set or from files. Local.
+  !> Returns the number of tags with names, set or from files. Local.
   subroutine domain_tag_name_count(self, count, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int32_t), intent(out) :: count
@@ -950,15 +952,15 @@ contains
     call conclude('domain%add_cylinder', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds the body where f < 0 to a domain in space; it must lie in the box. Its surface is found on
-  !> an octree refined near f = 0 down to cells of side resolution. Thinner features can be lost,
-  !> and so can a body that is small relative to the box and towards which f does not decrease.
-  !> Nodes on the surface lie where f = 0, however coarse the triangles of the octree are. Where the
-  !> gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface has an edge
-  !> with nodes on it; where triangles would cross, as they may at edges of less than 60 degrees, it
-  !> stays rounded by the resolution, with a warning. The callback is called during this procedure,
-  !> whenever a placement is initialised or runs, and for its normals, so it and user must outlive
-  !> the placements made on the domain. Local.
+  !> Adds the body where f < 0 to a domain in space. The box must contain it. Its surface is found
+  !> on an octree that is refined near f = 0 down to cells of side resolution. Thinner features can
+  !> be lost, and so can a body that is small relative to the box and towards which f does not
+  !> decrease. Nodes on the surface lie where f = 0, however coarse the triangles of the octree are.
+  !> Where the gradient of f jumps by more than 40 degrees, as that of max(g, h) does, the surface
+  !> has an edge with nodes on it. Where triangles would cross, as they may at edges of less than 60
+  !> degrees, it stays rounded by the resolution, with a warning. The callback is called during this
+  !> procedure, whenever a placement is initialised or runs, and for its normals, so it and user
+  !> must outlive the placements made on the domain. Local.
   !>   low, high   (3), the box; f is evaluated only inside it
   !>   resolution  > 0, at most the box's shortest side; no more than the spacing at the surface,
   !>               and half of the minimum radius of curvature
@@ -1025,14 +1027,14 @@ contains
                                      end, tag_or_one(tag)), stat, errmsg)
   end subroutine
 
-  !> Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The domain
-  !> is what the segments enclose, except the regions that contain a hole point; a loop without a
+  !> Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The
+  !> segments enclose the domain, except for regions that contain a hole point. A loop without a
   !> hole point and any open chain are inner curves. Every vertex becomes a node. Shared vertices
   !> and T-junctions (within 1e-12 of the domain's size) are allowed. Once a graph is added, this
   !> rule holds for all curves of the domain. Local.
   !>   coordinates   (2, vertices)
   !>   segment_ends  (2, segments) vertices, counted from 1
-  !>   vertex_tags   optional, (vertices); 0: the segment's tag
+  !>   vertex_tags   optional, (vertices); 0 stands for the tag of the segment
   !>   segment_tags  optional, (segments); default: 1
   !>   hole_points   optional, (2, holes)
   subroutine domain_add_pslg(self, coordinates, segment_ends, vertex_tags, segment_tags, &
@@ -1067,10 +1069,10 @@ contains
   end subroutine
 
   !> Sets whether a domain in space is the volume enclosed by its surfaces (the default) or the
-  !> surfaces alone: nodes on them, triangles between these nodes, and no interior. On surfaces
-  !> alone, both roles are equivalent and surfaces may be closed or open. Polylines must follow
-  !> edges of the triangles, fixed nodes must be vertices of them, and there are no holes. Options
-  !> have the same meaning as in the plane. Local.
+  !> surfaces alone: nodes lie on them, triangles join these nodes, and there is no interior. On
+  !> surfaces alone, both roles are equivalent and surfaces may be closed or open. Polylines must
+  !> follow edges of the triangles, fixed nodes must be vertices of them, and there are no holes.
+  !> Options have the same meaning as in the plane. Local.
   !>   filled  .true.: the enclosed volume; .false.: the surfaces alone
   subroutine domain_set_filled(self, filled, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1083,14 +1085,15 @@ contains
   end subroutine
 
   !> Repairs the triangulated boundary surfaces of a domain in space that enclose one body
-  !> imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces are unchanged,
-  !> and a warning reports that nothing is repaired. The body is where they wind around a point more
-  !> than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
-  !> surfaces that enclose nothing are dropped. The surface of the body is extracted as that of a
-  !> level set, with its sharp edges; all of it has the tag of the first triangle. A warning reports
-  !> its distance from the given triangles. Local.
-  !>   resolution  thinner features can be lost; > 0, no more than the spacing at the surface, or 0:
-  !>               1/64 of the longest side of the bounding box of the triangles
+  !> imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces do not change,
+  !> and a warning reports that nothing is repaired. The body is the set of points around which the
+  !> surfaces wind more than half a time, in either orientation. Holes are closed, overlapping
+  !> bodies are joined, and surfaces that enclose nothing are removed. The surface of the body is
+  !> extracted as that of a level set, with its sharp edges. All of it has the tag of the first
+  !> triangle. A warning reports its distance from the given triangles. Thinner features than the
+  !> resolution can be lost. Local.
+  !>   resolution  > 0, no more than the spacing at the surface. 0 stands for 1/64 of the longest
+  !>               side of the bounding box of the triangles
   subroutine domain_set_repair(self, resolution, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: resolution
@@ -1100,8 +1103,9 @@ contains
   end subroutine
 
   !> Replaces the triangulated boundary surfaces of a domain in space as set_repair does, even if
-  !> they need no repair: this removes what is finer than the resolution from a body. Local.
-  !>   resolution  as of set_repair
+  !> they need no repair. This removes features of the body that are smaller than the resolution.
+  !> Local.
+  !>   resolution  as in set_repair
   subroutine domain_set_resurfaced(self, resolution, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: resolution
@@ -1129,11 +1133,11 @@ contains
     call conclude('domain%add_hole', status, stat, errmsg, given)
   end subroutine
 
-  !> Gives a tag to the region around a point, up to the next curves or surfaces of either role:
-  !> elements that lie in it have this tag (placement%get_element_tags, mesh%get_elements), in files
-  !> too. So inner curves and surfaces divide a domain into materials. Elements of regions without a
-  !> point have the tag 0. Local. Errors of domain%check: PNPBS_ERROR_DOMAIN if the point lies
-  !> outside the domain, on a curve or surface, or in a region with another tag.
+  !> Gives a tag to the region around a point, up to the next curves or surfaces of either role.
+  !> Elements in the region have this tag (placement%get_element_tags, mesh%get_elements), also in
+  !> files. Inner curves and surfaces thus divide a domain into materials. Elements of regions
+  !> without a point have the tag 0. Local. Errors of domain%check: PNPBS_ERROR_DOMAIN if the point
+  !> lies outside the domain, on a curve or surface, or in a region with another tag.
   !>   point  (dim)
   !>   tag    nonzero
   subroutine domain_add_region(self, point, tag, stat, errmsg)
@@ -1188,7 +1192,7 @@ contains
     call conclude('domain%read_poly', c_domain_read_poly(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> Does the same as read_poly with a text in memory. Local.
+  !> Adds a text in memory as read_poly adds a file. Local.
   !>   text  lines that end with new_line('a')
   !>   name  the name of the text in messages
   subroutine domain_parse_poly(self, text, name, stat, errmsg)
@@ -1202,10 +1206,10 @@ contains
   end subroutine
 
   !> Sets the corner angle of the graphs of a domain in the plane (add_pslg, read_poly, parse_poly),
-  !> both those already added and later ones. Corners are vertices where the direction turns by more
-  !> than this, where segments of different tags or other than two of them end, and vertices with a
-  !> tag of their own. Nodes lie on corners; between them a graph represents a smooth curve, with
-  !> nodes spaced by d. Local.
+  !> both of those added already and of later ones. Corners are vertices where the direction turns
+  !> by more than this angle, where segments of different tags or other than two segments end, and
+  !> vertices with a tag of their own. Nodes lie on corners. Between corners a graph represents a
+  !> smooth curve, with nodes spaced by d. Local.
   !>   corner_angle  degrees, 0 .. 180. 0, the default: every vertex becomes a node
   subroutine domain_set_corner_angle(self, corner_angle, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1216,19 +1220,19 @@ contains
                   errmsg)
   end subroutine
 
-  !> Removes features finer than d, such as those of coastlines, from a domain in the plane. From
-  !> the graphs and polylines added so far, it removes vertices next to segments shorter than d, as
-  !> long as the curve then passes them within tolerance * d, and closed curves, islands and lakes,
-  !> whose extent (the longer side of their bounding box) is less than smallest * d. No other
-  !> vertex, fixed node or hole point changes to another side of a curve. Vertices are kept where
-  !> curves meet or end, where tags change or a vertex has its own, and at fixed nodes. Local; must
-  !> be called identically on all ranks.
+  !> Removes features smaller than d, such as those of coastlines, from the graphs and polylines of
+  !> a domain in the plane. It removes vertices next to segments shorter than d, as long as the
+  !> curve then passes them within tolerance * d. It also removes closed curves, such as islands and
+  !> lakes, whose extent is less than smallest * d, where the extent is the longer side of the
+  !> bounding box. No other vertex, fixed node or hole point changes to another side of a curve.
+  !> Vertices are kept where curves meet or end, where tags change, where a vertex has a tag of its
+  !> own, and at fixed nodes. Local; must be called identically on all ranks.
   !>   spacing    d, called only during this procedure
   !>   tolerance  >= 0; 0.25 suits most
   !>   smallest   >= 0; 0 removes no curve
   !>   user       optional: passed to the callback
-  !>   vertices   optional: number removed, including those of the curves
-  !>   curves     optional: number removed
+  !>   vertices   optional: number of removed vertices, including those of removed curves
+  !>   curves     optional: number of removed curves
   subroutine domain_simplify(self, spacing, tolerance, smallest, user, vertices, curves, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     procedure(pnpbs_spacing_fn) :: spacing
@@ -1246,10 +1250,10 @@ contains
     if (present(curves)) curves = left_out(2)
   end subroutine
 
-  !> Does the same as simplify with a spacing from a file with values at points, as in
+  !> Removes features as simplify does, with a spacing from a file with values at points, as in
   !> placement%set_spacing_file. Local; must be called identically on all ranks. Checks the domain
   !> first.
-  !>   field  optional: the name of the values; default: the only ones, or those called 'spacing'
+  !>   field  optional: the name of the values; default: the only name, or 'spacing'
   subroutine domain_simplify_by_file(self, path, tolerance, smallest, field, vertices, curves, stat, &
                                      errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1274,29 +1278,30 @@ contains
     if (present(curves)) curves = left_out(2)
   end subroutine
 
-  !> Adds the body between two distances from the boundary of another: points whose signed distance
-  !> to it, negative inside, lies between low and high times d. Particles that each stand for d**dim
-  !> of matter lie half a spacing inside the wall: they are placed between low = -huge(low) and high
-  !> = -0.42 in the plane, -0.46 in space, as nodes with a spacing of 1.076 d or 1.147 d. Their
-  !> number is then nearly the integral of 1 / d**dim over the body. n layers of wall particles lie
-  !> outside, between 0.42 and n - 0.58 or, in space, 0.46 and n - 0.54. Its boundary is found as
-  !> that of a level set (add_level_set), in the plane by curves through points about a resolution
-  !> apart, with corners where it turns by more than 20 degrees within it. What is thinner is lost.
-  !> The body is checked first, and is not needed afterwards. In space the callback is called later,
-  !> too, as that of a level set is, so it and user must outlive the placements made on the domain.
-  !> Local; must be called identically on all ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check,
-  !> or if nothing is left between these distances; PNPBS_ERROR_SPACING for a d that is zero,
-  !> negative or not finite.
+  !> Adds the body between two distances from the boundary of another body. A point belongs to it if
+  !> its signed distance from that boundary, negative inside, lies between low and high times d.
+  !> Particles that each represent d**dim of matter lie half a spacing inside the wall. To place
+  !> them, use low = -huge(low) and high = -0.42 in the plane or -0.46 in space, with nodes of the
+  !> spacing 1.076 d or 1.147 d. Their number is then nearly the integral of 1 / d**dim over the
+  !> body. n layers of wall particles lie outside, between 0.42 and n - 0.58, or in space between
+  !> 0.46 and n - 0.54. The boundary of the new body is found as that of a level set
+  !> (add_level_set). In the plane it consists of curves through points about a resolution apart,
+  !> with corners where it turns by more than 20 degrees within it. Thinner parts are lost. The body
+  !> is checked first, and is not needed afterwards. In space the callback is also called later, as
+  !> that of a level set, so it and user must outlive the placements made on the domain. Local; must
+  !> be called identically on all ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check, or if
+  !> nothing lies between these distances; PNPBS_ERROR_SPACING for a d that is zero, negative or not
+  !> finite.
   !>   body        on the same context and with the same dimension; must have an inside
-  !>   low         less than high; -huge(low) or less, which includes minus infinity, is passed on
-  !>               as minus infinity: all that is deeper
+  !>   low         less than high. Values up to -huge(low), which include minus infinity, are passed
+  !>               as minus infinity, for points at any depth
   !>   high        finite
-  !>   spacing     optional: d, which may be evaluated in the body's bounding box, and as far around
-  !>               it as the new body reaches, and a little farther; default: 1 everywhere, so that
-  !>               low and high are lengths
+  !>   spacing     optional: d, which is evaluated in the body's bounding box and around it, a
+  !>               little farther than the new body reaches; default: 1 everywhere, so that low and
+  !>               high are lengths
   !>   resolution  optional: > 0; default: an eighth (in space half) of the least d at the body's
   !>               boundary, or of the lesser of |low| and |high| without a callback
-  !>   tag         optional: nonzero, of the new boundary; default: 1
+  !>   tag         optional: tag of the new boundary, nonzero; default: 1
   !>   user        optional: passed to the callback; default: null
   subroutine domain_add_offset(self, body, low, high, spacing, resolution, tag, user, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1320,9 +1325,9 @@ contains
                   errmsg)
   end subroutine
 
-  ! Returns minus infinity, for which Fortran has no literal, for the numbers that stand for it.
-  ! This is a separate function because a procedure that uses the module saves and restores the
-  ! floating-point status, which must not happen around callbacks.
+  ! Returns minus infinity for numbers that stand for it, and other numbers unchanged. Fortran has
+  ! no literal for infinity. This is a separate function because a procedure that uses the module
+  ! saves and restores the floating-point status, which must not happen around callbacks.
   function lower_limit(low)
     use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_value
     real(c_double), intent(in) :: low
@@ -1360,7 +1365,8 @@ contains
     call conclude('domain%bounds', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the area of the inside, in space its volume. Local; checks the domain first.
+  !> Returns the area of the inside, in space its volume, or the area of surfaces alone. Local;
+  !> checks the domain first.
   subroutine domain_measure(self, measure, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(out) :: measure
@@ -1369,11 +1375,11 @@ contains
     call conclude('domain%measure', c_domain_measure(self%c, measure), stat, errmsg)
   end subroutine
 
-  !> Evaluates distances to the shape of the domain. They are exact for segments and triangles, and
-  !> within 1e-7 of the domain's size for arcs and curves by callback. Local; checks the domain
+  !> Evaluates distances from the shape of the domain. They are exact for segments and triangles,
+  !> and within 1e-7 of the domain's size for arcs and parametric curves. Local; checks the domain
   !> first. The first query after a change of the domain builds a search tree and calls the
-  !> callbacks of curves: make one query before querying from inside a callback (as a spacing
-  !> callback may). Errors: PNPBS_ERROR_ARGUMENT if nothing has the tag.
+  !> callbacks of curves. If a callback queries distances, query one before the run. Errors:
+  !> PNPBS_ERROR_ARGUMENT if nothing has the tag.
   !>   coordinates  (dim, n)
   !>   distances    (n)
   !>   tag          optional: of curves, surfaces or nodes; default: the boundary of the domain
@@ -1397,12 +1403,12 @@ contains
     call conclude('domain%distance', status, stat, errmsg, given)
   end subroutine
 
-  !> Evaluates the spacing that placement%set_spacing_from_shape would set, without its bounds, for
-  !> use in a spacing callback. Local; checks the domain first. The first query computes what the
-  !> shape requires and keeps it: make one query before querying from inside a callback.
+  !> Evaluates the spacing that placement%set_spacing_from_shape sets, without its bounds, for use
+  !> in a spacing callback. Local; checks the domain first. The first query computes what the shape
+  !> requires. If a callback queries this spacing, query it once before the run.
   !>   coordinates                                           (dim, n)
   !>   d                                                     (n)
-  !>   nodes_per_turn, nodes_across, nodes_per_edge, growth  optional, as there
+  !>   nodes_per_turn, nodes_across, nodes_per_edge, growth  optional, as in set_spacing_from_shape
   subroutine domain_shape_spacing(self, coordinates, d, nodes_per_turn, nodes_across, &
                                   nodes_per_edge, growth, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1422,7 +1428,7 @@ contains
     call conclude('domain%shape_spacing', status, stat, errmsg, given)
   end subroutine
 
-  ! Rejects points of another dimension, and values whose number differs from that of the points.
+  ! Rejects points of another dimension, and a number of values that differs from that of points.
   subroutine check_places(self, coordinates, values, name, given)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -1453,9 +1459,9 @@ contains
                   errmsg)
   end subroutine
 
-  !> Returns straight segments that approximate the curves of a domain in the plane or on a sphere
-  !> (curves finely sampled), for pictures. Local.
-  !>   segments  optional, (dim, 2, count): coordinates, ends, segments
+  !> Returns straight segments that approximate the curves of a domain in the plane or on a sphere,
+  !> for pictures. Local.
+  !>   segments  optional, (dim, 2, count): coordinates of both ends of each segment
   !>   tags      optional, (count)
   subroutine domain_get_segments(self, segments, tags, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
@@ -1476,14 +1482,14 @@ contains
     call conclude('domain%get_segments', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the handle as an integer; 0 if there is no domain. Local.
+  !> Returns the handle as an integer, or 0 if there is no domain. Local.
   function domain_handle(self) result(handle)
     class(pnpbs_domain), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the domain with the given handle. Local; checks nothing.
+  !> Sets the domain to the object with the given handle, without checks. Local.
   subroutine domain_from_handle(self, handle)
     class(pnpbs_domain), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -1503,7 +1509,7 @@ contains
     call conclude('placement%create', c_placement_create(context%c, domain%c, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys the placement; does nothing if there is none. Local.
+  !> Destroys the placement, if it exists. Local.
   subroutine placement_destroy(self, stat, errmsg)
     class(pnpbs_placement), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -1511,7 +1517,8 @@ contains
     call conclude('placement%destroy', c_placement_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> set(key, value): sets an option of this placement; otherwise as for contexts. Local.
+  !> set(key, value): sets an option of this placement. Otherwise it is like set of a context.
+  !> Local.
   subroutine placement_set_text(self, key, value, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: key, value
@@ -1560,9 +1567,9 @@ contains
                   c_placement_set_spacing_constant(self%c, d), stat, errmsg)
   end subroutine
 
-  !> Sets the spacing to a callback, which must stay valid as long as the placement uses it, and so
-  !> must user. Collective. Invalid values are detected when it is called, in initialise or run: the
-  !> error names the point and the number of nodes it would have implied.
+  !> Sets the spacing to a callback. It and user must stay valid as long as the placement uses it.
+  !> Collective. Invalid values are detected when it is called, in initialise or run: the error
+  !> names the point and the number of nodes that the value implies.
   !>   user  optional: passed to the callback; default: null
   subroutine placement_set_spacing_callback(self, spacing, user, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1576,8 +1583,9 @@ contains
   end subroutine
 
   !> Sets the spacing to values on a rectangular grid, which are copied. It is linear in each
-  !> direction between grid points and constant beyond the grid's edge. On a sphere the grid has two
-  !> directions, longitude and latitude in degrees; columns all around are joined. Collective.
+  !> direction between grid points and constant beyond the edge of the grid. On a sphere the grid
+  !> has two directions, longitude and latitude in degrees; columns all around the sphere are
+  !> joined. Collective.
   !>   origin  (dim), on a sphere (2): the first grid point
   !>   step    (dim), on a sphere (2): > 0, distance between grid points
   !>   values  (nx, ny), in space (nx, ny, nz)
@@ -1611,7 +1619,7 @@ contains
     call conclude('placement%set_spacing_grid', status, stat, errmsg, given)
   end subroutine
 
-  ! Rejects values of another dimension, and grids whose origin or step has the wrong size.
+  ! Rejects values of another dimension, and grids without an origin or step in each direction.
   subroutine check_grid(self, origins, steps, rank_of_values, given)
     class(pnpbs_placement), intent(in) :: self
     integer, intent(in) :: origins, steps, rank_of_values
@@ -1624,11 +1632,12 @@ contains
   end subroutine
 
   !> Sets the spacing to values at the nodes of a background mesh, which are copied. It is linear on
-  !> each triangle, in space on each tetrahedron, and beyond the mesh equal to the value at the
+  !> each triangle, in space on each tetrahedron. Beyond the mesh it is equal to the value at the
   !> nearest point of the mesh. Collective; every rank passes and stores the same arrays. Checks the
-  !> domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, and,
-  !> but for spheres, for a mesh whose bounding box does not meet the domain's; PNPBS_ERROR_ARGUMENT
-  !> for a node number out of range, a flat element, or arrays that differ between ranks.
+  !> domain first. Errors: PNPBS_ERROR_SPACING for a value that is zero, negative or not finite,
+  !> and, except on spheres, for a mesh whose bounding box does not meet that of the domain;
+  !> PNPBS_ERROR_ARGUMENT for a node number out of range, a flat element, or arrays that differ
+  !> between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
   !>   corners      (dim + 1, elements), on a sphere (3, elements): node numbers, counted from 1, in
@@ -1653,12 +1662,12 @@ contains
   end subroutine
 
   !> Sets the spacing to values at scattered points, which are copied. It equals the given value at
-  !> each point and elsewhere a weighted mean of the values of the 8 (in space 16) nearest points, of
-  !> which those behind others count less or not at all; on a sphere, with ways along it.
-  !> Collective; every rank passes and stores the same arrays. Checks the domain first. Errors:
-  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident points with
-  !> different values, and, but for spheres, for points whose bounding box does not meet the
-  !> domain's; PNPBS_ERROR_ARGUMENT for arrays that differ between ranks.
+  !> each point. Elsewhere it is a weighted mean of the values of the 8 (in space 16) nearest
+  !> points, in which points behind others count less or not at all. On a sphere distances are along
+  !> it. Collective; every rank passes and stores the same arrays. Checks the domain first. Errors:
+  !> PNPBS_ERROR_SPACING for a value that is zero, negative or not finite, for coincident points
+  !> with different values, and, except on spheres, for points whose bounding box does not meet that
+  !> of the domain; PNPBS_ERROR_ARGUMENT for arrays that differ between ranks.
   !>   coordinates  (dim, n)
   !>   d            (n)
   subroutine placement_set_spacing_points(self, coordinates, d, stat, errmsg)
@@ -1674,13 +1683,14 @@ contains
     call conclude('placement%set_spacing_points', status, stat, errmsg, given)
   end subroutine
 
-  !> Sets the spacing to values at points from a file, by its extension: .vtu (VTK's unstructured
-  !> grid), .msh (Gmsh's, with $NodeData) or .csv (columns x, y, (z) and others). Triangles and
-  !> quadrangles, in space tetrahedra, form a mesh as in set_spacing_mesh; without any, the points
-  !> are used as in set_spacing_points. In the plane z is ignored; on a sphere elements are as in the
-  !> plane. Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE, and as these two.
+  !> Sets the spacing to values at points from a file: .vtu (unstructured grid of VTK), .msh (Gmsh,
+  !> with $NodeData) or .csv (columns x, y, (z) and others). Triangles and quadrangles, in space
+  !> tetrahedra, form a mesh as in set_spacing_mesh; on a sphere elements are those of the plane.
+  !> Without elements the points are used as in set_spacing_points. In the plane z is ignored.
+  !> Collective; every rank reads the file. Errors: PNPBS_ERROR_FILE, and those of these two
+  !> procedures.
   !>   path   trailing blanks are ignored
-  !>   field  optional: its name in the file; default: the only one, or the one called "spacing"
+  !>   field  optional: the name of the values in the file; default: the only name, or 'spacing'
   subroutine placement_set_spacing_file(self, path, field, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -1696,7 +1706,7 @@ contains
     call conclude('placement%set_spacing_file', status, stat, errmsg)
   end subroutine
 
-  ! Rejects points of another dimension, and values whose number differs from that of the points.
+  ! Rejects points of another dimension, and a number of values that differs from that of points.
   subroutine check_field(self, coordinates, d, given)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:), d(:)
@@ -1705,18 +1715,19 @@ contains
     call given%require('d', size(d, kind=c_int64_t), size(coordinates, 2, kind=c_int64_t))
   end subroutine
 
-  !> Sets the spacing from the current shape of the domain: the minimum of what its curves and
-  !> surfaces require, each value growing with the distance from them. Collective. The same on any
-  !> number of ranks. Errors: PNPBS_ERROR_DOMAIN as in domain%check, PNPBS_ERROR_ARGUMENT for
-  !> negative numbers, PNPBS_ERROR_SPACING where the domain is too narrow to measure its width
-  !> everywhere.
-  !>   nodes_per_turn  optional: by curvature, nodes on a full circle of the radius of curvature;
+  !> Sets the spacing from the current shape of the domain. It is the minimum of the values that
+  !> curves and surfaces require, each growing with the distance from them. It does not depend on
+  !> the number of ranks. Collective. Errors: PNPBS_ERROR_DOMAIN as in domain%check,
+  !> PNPBS_ERROR_ARGUMENT for negative numbers, PNPBS_ERROR_SPACING where the domain is too narrow
+  !> to measure its width everywhere.
+  !>   nodes_per_turn  optional: by curvature: number of nodes on a full circle of the radius of
+  !>                   curvature; default: not used
+  !>   nodes_across    optional: by width: number of nodes across the diameter of the largest ball
+  !>                   that touches the boundary at a point and meets no other part of it ahead;
   !>                   default: not used
-  !>   nodes_across    optional: by width, nodes across the diameter of the largest ball that
-  !>                   touches the boundary and meets nothing ahead; default: not used
-  !>   nodes_per_edge  optional: by the input, nodes along its segments and the mean edge of its
-  !>                   triangles; default: not used
-  !>   growth          optional: of d per unit of distance; default: 0.15
+  !>   nodes_per_edge  optional: by the input: number of nodes along a segment, or along the mean
+  !>                   edge of a triangle; default: not used
+  !>   growth          optional: growth of d per distance; default: 0.15
   !>   min_spacing     optional: lower bound of d
   !>   max_spacing     optional: upper bound of d; default: the size of the domain
   subroutine placement_set_spacing_from_shape(self, nodes_per_turn, nodes_across, nodes_per_edge, &
@@ -1735,13 +1746,13 @@ contains
   end subroutine
 
   !> Sets the spacing to values at the current nodes. It is linear on each triangle or tetrahedron
-  !> of their Delaunay triangulation (get_triangles, get_tetrahedra), and beyond its boundary, next
-  !> to curved boundaries, equal to the value at the nearest point of it. Each rank passes the
-  !> values of its own nodes; they stay on that rank, copied together with the triangles or
+  !> of their Delaunay triangulation (get_triangles, get_tetrahedra). Beyond its boundary, next to
+  !> curved boundaries, it is equal to the value at the nearest point of it. Each rank passes the
+  !> values of its own nodes. They stay on that rank, copied together with the triangles or
   !> tetrahedra, and the nodes may be replaced afterwards. Collective. Errors: PNPBS_ERROR_STATE
   !> without nodes, PNPBS_ERROR_SPACING for a value that is zero, negative or not finite: the
-  !> message names the rank, the node's id and the value.
-  !>   d  one for every node of this rank, in the order of get_nodes
+  !> message names the rank, the id of the node and the value.
+  !>   d  a value for each node of this rank, in the order of get_nodes
   subroutine placement_set_spacing_at_nodes(self, d, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(in) :: d(:)
@@ -1791,10 +1802,11 @@ contains
                   c_placement_set_monitor(self%c, address, pointer_or_null(user)), stat, errmsg)
   end subroutine
 
-  !> Sets inner nodes to start from instead of the initial fill; they are copied, and the library
-  !> places the boundary nodes. On several ranks each passes some, wherever they lie. Nodes many
-  !> times too dense for d are thinned (statistic 'deleted'). Points outside the domain or too close
-  !> to its boundary are dropped (statistic 'dropped'). Clears the current nodes. Collective.
+  !> Sets inner nodes from which the simulation starts instead of the initial fill. They are copied,
+  !> and the library places the boundary nodes. On several ranks each rank passes some of the nodes,
+  !> anywhere in the domain. Nodes many times too dense for d are thinned (statistic 'deleted').
+  !> Points outside the domain or too close to its boundary are dropped (statistic 'dropped'). The
+  !> current nodes are removed. Collective.
   !>   coordinates  (dim, n)
   !>   ids          optional, (n): distinct, 0 .. 2**62; default: chosen by the library
   subroutine placement_set_nodes(self, coordinates, ids, stat, errmsg)
@@ -1819,12 +1831,12 @@ contains
 
   ! ------------------------------------------------------------ placement: computing ----------
 
-  !> Estimates a run from scratch, from domain, spacing and options alone. d is sampled at some
-  !> thousand points, no inner node is created, and the current nodes are unchanged. Collective.
-  !> Errors: PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
-  !>   nodes    optional: on all ranks, mostly within a few percent
-  !>   bytes    optional: memory of each process, for the run alone
-  !>   seconds  optional: rough
+  !> Estimates a run from scratch, from domain, spacing and options alone. It samples d at some
+  !> thousand points and creates no inner node; the current nodes do not change. Collective. Errors:
+  !> PNPBS_ERROR_DOMAIN, _SPACING, _CALLBACK.
+  !>   nodes    optional: number of nodes on all ranks, mostly within a few percent
+  !>   bytes    optional: memory of each process in bytes, for the run alone
+  !>   seconds  optional: approximate time in seconds
   subroutine placement_estimate(self, nodes, bytes, seconds, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out), optional :: nodes, bytes
@@ -1901,11 +1913,11 @@ contains
   end subroutine
 
   !> Runs the whole placement: initialises if necessary, steps until the stop test is met or the
-  !> option 'steps' is used up, and finishes. A later call starts a new schedule from the current
+  !> option 'steps' is reached, and finishes. A later call starts a new schedule from the current
   !> nodes. Collective. stat: PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept);
-  !> PNPBS_SPACING_MISSED, whether or not the bubbles are at rest, if in one of the bands of
-  !> get_edge_bands with 50 edges or more the mean differs from 1 by more than 0.1 (a warning names
-  !> the band); PNPBS_NOT_CONFORMING, if the elements do not fill the domain (a warning says where);
+  !> PNPBS_SPACING_MISSED, whether or not the bubbles are at rest, if in a band of get_edge_bands
+  !> with 50 edges or more the mean differs from 1 by more than 0.1 (a warning names the band);
+  !> PNPBS_NOT_CONFORMING if the elements do not fill the domain (a warning names the place);
   !> PNPBS_STOPPED.
   subroutine placement_run(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1917,7 +1929,7 @@ contains
   ! ------------------------------------------------------------ placement: results ------------
 
   !> Returns the dimension of the placement's domain. Local.
-  !>   dim  2: in the plane, 3: in space
+  !>   dim  2: in the plane, 3: in space and on a sphere
   subroutine placement_dimension(self, dim, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int32_t), intent(out) :: dim
@@ -1927,8 +1939,8 @@ contains
     call conclude('placement%dimension', c_placement_dimension(self%c, dim), stat, errmsg)
   end subroutine
 
-  !> Returns the radius of the sphere that the placement's nodes lie on. Local.
-  !>   radius  0: its domain is not on a sphere
+  !> Returns the radius of the sphere on which the nodes of the placement lie. Local.
+  !>   radius  0 if the domain is not on a sphere
   subroutine placement_sphere_radius(self, radius, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(out) :: radius
@@ -1951,7 +1963,7 @@ contains
   !> Copies the nodes of this rank, in their local order; all arrays are optional. Local.
   !>   coordinates  (dim, nodes)
   !>   ids          (nodes) global ids, the same for any number of ranks and threads
-  !>   tags         (nodes) 0 inner, otherwise the tag of the curve, surface or fixed node
+  !>   tags         (nodes) 0 for inner nodes, otherwise the tag of the curve, surface or fixed node
   !>   spacing      (nodes) d at the node
   subroutine placement_get_nodes(self, coordinates, ids, tags, spacing, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1975,9 +1987,9 @@ contains
     call conclude('placement%get_nodes', status, stat, errmsg, given)
   end subroutine
 
-  !> Copies the surface normals at the nodes of this rank, of a placement in space: the unit normal
-  !> of the triangle that a node lies on, on feature edges and in corners the mean of the adjacent
-  !> normals, 0 for inner nodes. Local.
+  !> Copies the surface normals at the nodes of this rank, for a placement in space. They are the
+  !> unit normals of the triangles on which the nodes lie. On feature edges and in corners they are
+  !> means of the adjacent normals. They are 0 at inner nodes. Local.
   !>   normals  (3, nodes)
   subroutine placement_get_normals(self, normals, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -1991,8 +2003,8 @@ contains
     call conclude('placement%get_normals', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the number of ghosts: nodes of other ranks that this rank sees near its own. In lists,
-  !> stars, triangles and tetrahedra ghost g has the local index nodes + g. Collective.
+  !> Returns the number of ghosts: nodes of other ranks close to those of this rank. In lists,
+  !> stars, triangles and tetrahedra, ghost g has the local index nodes + g. Collective.
   subroutine placement_ghost_count(self, ghosts, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: ghosts
@@ -2002,9 +2014,9 @@ contains
     call conclude('placement%ghost_count', c_placement_ghost_count(self%c, ghosts), stat, errmsg)
   end subroutine
 
-  !> Copies the ghosts, by increasing id; all arrays are optional. Collective.
-  !>   coordinates, ids, tags, spacing  as get_nodes
-  !>   owners                           (ghosts) the rank that owns each
+  !> Copies the ghosts in the order of their ids; all arrays are optional. Collective.
+  !>   coordinates, ids, tags, spacing  as in get_nodes
+  !>   owners                           (ghosts) the rank that owns each ghost
   subroutine placement_get_ghosts(self, coordinates, ids, tags, spacing, owners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout), optional :: coordinates(:,:), spacing(:)
@@ -2028,10 +2040,11 @@ contains
     call conclude('placement%get_ghosts', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the sizes of the exchange pattern, by which values at nodes reach their ghosts on other
-  !> ranks. Collective; all are optional.
-  !>   neighbours  ranks that have ghosts of our nodes, or nodes that are ghosts here
-  !>   sends       nodes to send, one for every rank that has it as a ghost
+  !> Returns the sizes of the halo exchange pattern, which describes how values at nodes are sent to
+  !> their ghosts on other ranks. Collective; all are optional.
+  !>   neighbours  ranks with ghosts of nodes of this rank, or with nodes that are ghosts on this
+  !>               rank
+  !>   sends       nodes to send, counted once for every rank that has the node as a ghost
   !>   receives    nodes to receive: the number of ghosts
   subroutine placement_exchange_sizes(self, neighbours, sends, receives, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2051,10 +2064,10 @@ contains
     if (present(receives)) receives = in
   end subroutine
 
-  !> Copies the exchange pattern, for reuse in a solver: send the values at nodes
-  !> send_nodes(send_offsets(k) : send_offsets(k+1)-1) to ranks(k), and store what it sends at
-  !> receive_nodes(receive_offsets(k) : receive_offsets(k+1)-1), in the same order (that of ids).
-  !> Valid until nodes move. Collective.
+  !> Copies the halo exchange pattern, for use in a solver: send the values at nodes
+  !> send_nodes(send_offsets(k) : send_offsets(k+1)-1) to ranks(k), and store the values received
+  !> from it at receive_nodes(receive_offsets(k) : receive_offsets(k+1)-1), in the same order, which
+  !> is that of ids. The pattern is valid until nodes move. Collective.
   !>   ranks            (neighbours) in increasing order, counted from 0 as in MPI
   !>   send_offsets     (neighbours + 1)
   !>   send_nodes       (sends) local indices of this rank's nodes
@@ -2100,11 +2113,11 @@ contains
   end subroutine
 
   !> Returns numbers that are contiguous per rank, as PETSc and hypre require, in addition to the
-  !> ids: node i of this rank has number first + i - 1, and the numbers of rank r follow those of
-  !> rank r - 1. They count from 0, as in C. Unlike the ids they depend on the ranks. Collective;
+  !> ids. Node i of this rank has the number first + i - 1, and the numbers of rank r follow those
+  !> of rank r - 1. They count from 0, as in C. Unlike ids they depend on the partition. Collective;
   !> all are optional.
   !>   first          the number of this rank's first node; 0 on rank 0
-  !>   count          how many numbers this rank has: its nodes
+  !>   count          number of nodes of this rank
   !>   ghost_numbers  (ghosts) the numbers of the ghosts, in the order of get_ghosts
   subroutine placement_get_numbering(self, first, count, ghost_numbers, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2151,10 +2164,10 @@ contains
                                             size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Begins an update of ghosts, for a solver that computes while messages travel: copies the values
-  !> of this rank's nodes that others need, and starts sending them. The array may be changed or
-  !> freed after the call. A placement has at most one update in progress; other calls are allowed
-  !> before it ends. Collective. Errors: as there.
+  !> Begins an update of ghosts, for a solver that computes while messages are being sent. It copies
+  !> the values of the nodes of this rank that other ranks need, and starts sending them. The array
+  !> may be changed or freed after the call. A placement has at most one update in progress; other
+  !> calls are allowed before it ends. Collective. Errors: as in update_ghosts.
   !>   values  as in update_ghosts
   subroutine placement_begin_update_ghosts(self, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2176,12 +2189,12 @@ contains
                                                   size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Ends an update of ghosts: waits for the values that the other ranks sent when they began, and
-  !> fills those of the ghosts; those of this rank's nodes are unchanged. Local: does not wait for
-  !> other ranks to end theirs. Errors: PNPBS_ERROR_STATE without an update in progress, or if nodes
-  !> have moved since it began, which ends it; PNPBS_ERROR_ARGUMENT for another shape, after which
-  !> the update is still in progress.
-  !>   values  as in update_ghosts; need not be the array that the update began with
+  !> Ends an update of ghosts: waits for the values that the other ranks have sent, and fills those
+  !> of the ghosts. Values at the nodes of this rank do not change. Local: does not wait for other
+  !> ranks to end theirs. Errors: PNPBS_ERROR_STATE without an update in progress, or if nodes have
+  !> moved since it began, which ends it; PNPBS_ERROR_ARGUMENT for another shape, after which the
+  !> update is still in progress.
+  !>   values  as in update_ghosts; may be another array than at the beginning
   subroutine placement_end_update_ghosts(self, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout) :: values(:)
@@ -2202,13 +2215,13 @@ contains
                                                 size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Adds the values at ghosts to those of the nodes they represent, on the ranks that own these. It
-  !> is the reverse of update_ghosts, for sums over elements to which several ranks contribute. Each
-  !> sum, of a node's own value and those at its ghosts, is exact and rounded once, so the order of
-  !> ranks has no effect. Values that a rank has summed by itself before were rounded there: unless
-  !> these sums are exact, results differ by rounding between numbers of ranks. Where all bits must
-  !> agree, use get_incident_elements. Collective. Errors: as update_ghosts, except for updates in
-  !> progress.
+  !> Adds the values at ghosts to the values of the nodes that they represent, on the ranks that own
+  !> these nodes. It is the reverse of update_ghosts, for sums over elements to which several ranks
+  !> contribute. Each sum, of the value of a node and those at its ghosts, is exact and rounded
+  !> once, so the order of ranks has no effect. Values that a rank has summed before are rounded
+  !> already. Unless those sums are exact, results for different numbers of ranks differ by
+  !> rounding. Use get_incident_elements where all bits must agree. Collective. Errors: as in
+  !> update_ghosts, except for updates in progress.
   !>   values  (nodes + ghosts), or (components, nodes + ghosts): those of this rank's nodes, which
   !>           become the sums, then those of its ghosts, which are unchanged
   subroutine placement_add_from_ghosts(self, values, stat, errmsg)
@@ -2231,13 +2244,13 @@ contains
                                               size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Sums each component of a field over the nodes of all ranks: the exact sum, rounded once to the
-  !> nearest number. It has the same bits for any number of ranks and threads and any order of
-  !> nodes. NaN where a value is NaN or where there are infinities of both signs; otherwise an
-  !> infinity where a value is, or where the sum is beyond the largest number. Collective. Errors:
-  !> as update_ghosts, except for updates in progress.
-  !>   values  (n), or (components, n): of this rank's nodes at least; entries after them, for its
-  !>           ghosts, are ignored
+  !> Sums each component of a field over the nodes of all ranks. The sum is exact and rounded once
+  !> to the nearest number, so its bits do not depend on the number of ranks and threads or the
+  !> order of nodes. It is NaN if a value is NaN or if there are infinities of both signs. It is
+  !> infinite if a value is, or if the sum exceeds the largest number. Collective. Errors: as in
+  !> update_ghosts, except for updates in progress.
+  !>   values  (n), or (components, n): values at the nodes of this rank; values at its ghosts may
+  !>           follow and are ignored
   !>   total   a number, or (components): the same on all ranks
   subroutine placement_sum(self, values, total, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2265,10 +2278,11 @@ contains
                                   size(values, 1, c_int32_t), values, total), stat, errmsg, given)
   end subroutine
 
-  !> Computes the dot product of two fields over the nodes of all ranks, for each component: the sum
-  !> of the exact products, rounded once, with the properties of sum. No product overflows or
-  !> underflows; one of an infinity and 0 is NaN. Collective.
-  !>   x, y     (n), or (components, n): of this rank's nodes at least
+  !> Computes the dot product of two fields over the nodes of all ranks, for each component. It is
+  !> the sum of the exact products, rounded once, with the properties of sum. Products do not
+  !> overflow or underflow; the product of an infinity and 0 is NaN. Collective.
+  !>   x, y     (n), or (components, n): values at the nodes of this rank; values at its ghosts may
+  !>            follow
   !>   product  a number, or (components): the same on all ranks
   subroutine placement_dot(self, x, y, product, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2347,14 +2361,14 @@ contains
     call conclude('placement%star_size', c_placement_star_size(self%c, entries), stat, errmsg)
   end subroutine
 
-  !> Copies each node's star in the constrained Delaunay triangulation of the domain: in the plane
-  !> counter-clockwise; in space all nodes that share a tetrahedron with it, in no particular order.
-  !> Collective.
+  !> Copies the star of each node in the constrained Delaunay triangulation of the domain. In the
+  !> plane it is counter-clockwise. In space it consists of all nodes that share a tetrahedron with
+  !> the node, in no particular order. Collective.
   !>   offsets     (nodes + 1)
   !>   neighbours  (entries) local indices
   !>   triangle    optional, (entries), logical or integer(c_int8_t): true or 1 if the node, this
-  !>               neighbour and the next one around (the first one after the last) are a triangle
-  !>               of the domain, false or 0 if a gap outside the domain lies between them, and
+  !>               neighbour and the next one around (the first one after the last) form a triangle
+  !>               of the domain; false or 0 if a gap outside the domain lies between them, and
   !>               everywhere in space
   subroutine placement_get_stars(self, offsets, neighbours, triangle, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2438,8 +2452,8 @@ contains
                   c_placement_get_tetrahedra(self%c, 0_c_int64_t, count, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Copies the tetrahedra of the stars of a placement in space, each once: seen from the fourth
-  !> corner, the first three turn counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of
+  !> Copies the tetrahedra of the stars of a placement in space, each once. Seen from the fourth
+  !> corner, the first three are counter-clockwise, so the volume (b-a) x (c-a) . (d-a) / 6 of
   !> corners a, b, c, d is positive. On several ranks a tetrahedron belongs to the rank that owns
   !> its node with the lowest id; other corners may be ghosts, and the tetrahedra of all ranks
   !> together are one conforming triangulation of the domain. Collective.
@@ -2462,7 +2476,7 @@ contains
     end do
   end subroutine
 
-  !> Copies the tag of each element: that of the region it lies in (domain%add_region), or 0 if the
+  !> Copies the tag of each element, which is that of its region (domain%add_region), or 0 if the
   !> region has none. The order is that of get_triangles, in space that of get_tetrahedra.
   !> Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_ARGUMENT on surfaces alone.
   !>   tags  (count), as many as triangle_count or tetrahedron_count returns
@@ -2481,7 +2495,7 @@ contains
   end subroutine
 
   !> Returns the number of elements that get_incident_elements returns. Collective.
-  !>   corners  optional: of each, 3 or 4
+  !>   corners  optional: number of corners of an element, 3 or 4
   subroutine placement_incident_element_count(self, count, corners, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(out) :: count
@@ -2497,13 +2511,13 @@ contains
     if (present(corners)) corners = rows
   end subroutine
 
-  !> Copies every element with a corner among this rank's nodes, whichever rank it belongs to:
-  !> triangles in the plane, tetrahedra in space, triangles on surfaces alone. With these a rank
-  !> assembles the rows of its nodes without communication. The corner with the lowest id comes
-  !> first; an element belongs to this rank, as defined by get_triangles and get_tetrahedra, if that
-  !> is one of its nodes. Elements are in the order of the ids of their corners, so those of a node
-  !> are the same, in the same order, for any number of ranks, and a row summed in this order has
-  !> the same bits. Collective.
+  !> Copies every element with a corner among the nodes of this rank, also those that belong to
+  !> other ranks: triangles in the plane and on surfaces alone, tetrahedra in space. With these a
+  !> rank assembles the rows of its nodes without communication. The corner with the lowest id comes
+  !> first. An element belongs to this rank, as defined by get_triangles and get_tetrahedra, if its
+  !> first corner is one of the nodes of the rank. Elements are in the order of the ids of their
+  !> corners, so those of a node are the same, in the same order, for any number of ranks. A row
+  !> that is summed in this order always has the same bits. Collective.
   !>   elements  (corners, count) local indices
   subroutine placement_get_incident_elements(self, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -2540,12 +2554,12 @@ contains
                                                      c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Copies the boundary triangles of a placement in space: the faces that belong to one tetrahedron
-  !> only, counter-clockwise as seen from outside. On surfaces alone, they are the triangles between
-  !> the nodes. On several ranks a triangle belongs to the rank that owns its node with the lowest
-  !> id. Collective.
+  !> Copies the boundary triangles of a placement in space, which are the faces of only one
+  !> tetrahedron, counter-clockwise as seen from outside. On surfaces alone, they are the triangles
+  !> between the nodes. On several ranks a triangle belongs to the rank that owns its node with the
+  !> lowest id. Collective.
   !>   triangles  optional, (3, count) local indices
-  !>   tags       optional, (count) of the surface there
+  !>   tags       optional, (count): tag of the surface there
   subroutine placement_get_boundary_triangles(self, triangles, tags, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t), intent(inout), optional :: triangles(:,:)
@@ -2610,11 +2624,11 @@ contains
   !> on the boundary, and all nodes of the boundary's curves or feature edges are present. Adjacency
   !> lists are symmetric. The triangles or tetrahedra of the stars are one conforming triangulation
   !> of the domain, each in the stars of all its corners, with every boundary edge, and their areas
-  !> or volumes add up to what the boundary encloses. In space the boundary triangles are closed,
-  !> and cut off no more of the domain than chords do. It takes about as long as building lists and
-  !> stars, and no rank holds more than its share. Collective. stat: PNPBS_OK; PNPBS_NOT_CONFORMING
-  !> where run returns it, too. Errors: PNPBS_ERROR_INTERNAL if something else is wrong: the message
-  !> says what, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
+  !> or volumes add up to those that the boundary encloses. In space the boundary triangles are
+  !> closed, and cut off no more of the domain than chords do. The check takes about as long as
+  !> building lists and stars, and no rank holds more than its share. Collective. stat: PNPBS_OK;
+  !> PNPBS_NOT_CONFORMING where run returns it, too. Errors: PNPBS_ERROR_INTERNAL if anything else
+  !> is wrong, with ids and coordinates; PNPBS_ERROR_STATE without nodes.
   subroutine placement_check(self, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     class(*), intent(out), optional :: stat
@@ -2674,14 +2688,14 @@ contains
 
   !> Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands of d.
   !> There are eight, equal in log d between the smallest and the largest d at the nodes, or one if
-  !> the largest is less than 1.1 times the smallest. Bands without edges are left out. An edge's d
-  !> is the mean of d at its ends. Edges between two boundary nodes are not counted, because the
-  !> corners of the domain determine their positions. Includes all ranks, and is the same on each.
-  !> Collective.
+  !> the largest is less than 1.1 times the smallest. Bands without edges are left out. The d of an
+  !> edge is the mean of d at its ends. Edges between two boundary nodes are not counted, because
+  !> the corners of the domain determine their positions. The result includes all ranks and is the
+  !> same on each. Collective.
   !>   d_from, d_to  optional, (count): lower and upper end of each band, increasing
   !>   edges         optional, (count): number of edges
-  !>   mean          optional, (count): of their length over d
-  !>   deviation     optional, (count): standard deviation of that
+  !>   mean          optional, (count): mean of edge length over d
+  !>   deviation     optional, (count): standard deviation of edge length over d
   subroutine placement_get_edge_bands(self, d_from, d_to, edges, mean, deviation, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     real(c_double), intent(inout), optional :: d_from(:), d_to(:), mean(:), deviation(:)
@@ -2717,17 +2731,18 @@ contains
 
   !> Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the
   !> plane and on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres
-  !> of the triangles around an inner node that is not fixed. Lengths and areas are along the
-  !> sphere. The limits of the bands are those of get_edge_bands, and bands with neither a cell nor
-  !> an edge are left out, so they are the same for all measures. A cell's d is that of its node, an
-  !> edge's the mean of d at its ends. Includes all ranks, and is the same on each. Collective.
-  !>   measure       'edge_ratio', of each cell its shortest edge over its longest; 'area_ratio', of
-  !>                 each edge between two cells the area of the smaller cell over that of the
-  !>                 larger; or 'dual_offset', of each edge between two such nodes the distance of
-  !>                 its middle from that of the Voronoi edge across it, over its length
+  !> of the triangles around an inner node that is not fixed. On spheres, lengths and areas are
+  !> along the sphere. The ends of the bands are those of get_edge_bands. Bands with neither a cell
+  !> nor an edge are left out, so the bands are the same for all measures. The d of a cell is that
+  !> of its node; the d of an edge is the mean at its ends. The result includes all ranks and is the
+  !> same on each. Collective.
+  !>   measure       'edge_ratio': the shortest over the longest edge of each cell; 'area_ratio':
+  !>                 the smaller over the larger area of the two cells at each edge; 'dual_offset':
+  !>                 for each edge between two such nodes, the distance of its midpoint from that of
+  !>                 the Voronoi edge across it, over its length
   !>   d_from, d_to  optional, (count): lower and upper end of each band, increasing
   !>   number        optional, (count): number of cells or edges measured
-  !>   mean          optional, (count): of the measure; 0 if number is 0, as is worst
+  !>   mean          optional, (count): mean of the measure; mean and worst are 0 if number is 0
   !>   worst         optional, (count): the smallest ratio, or the largest offset
   subroutine placement_get_cell_bands(self, measure, d_from, d_to, number, mean, worst, stat, &
                                       errmsg)
@@ -2782,10 +2797,11 @@ contains
   !> Returns one of the warnings as data. Local.
   !>   index  1 .. count of warnings
   !>   code   one of PNPBS_WARNING_...
-  !>   count  how many nodes, edges, triangles or points it is about; 0: not known
-  !>   value  a number that it is about; NaN if there is none
-  !>   point  (3) the first point that the text names, in the coordinates of nodes; in the plane
-  !>          with NaN behind x and y; NaN if there is none
+  !>   count  number of nodes, edges, triangles or points that the warning is about; 0 if it is not
+  !>          known
+  !>   value  a number that the warning is about; NaN if there is none
+  !>   point  (3) coordinates of the first point that the text names; the third is NaN in the plane;
+  !>          all are NaN if there is none
   subroutine placement_get_warning_data(self, index, code, count, value, point, stat, errmsg)
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     class(pnpbs_placement), intent(in) :: self
@@ -2809,17 +2825,17 @@ contains
 
   ! ------------------------------------------------------------ transfer ----------------------
 
-  !> Transfers a field to a later set of nodes: copies the values of all ranks at the current nodes
-  !> of the placement, with these nodes and their triangles or tetrahedra, each rank its own. The
-  !> nodes may then move, be replaced or change their ranks, and the placement may be destroyed. The
-  !> field is linear on each triangle or tetrahedron; beyond their boundary, next to curved
-  !> boundaries, it is extrapolated from the one at the nearest point of that boundary. Linear
-  !> fields are thus preserved, and others change by a term of second order in d. On surfaces alone
-  !> it is linear on each triangle between their nodes, and elsewhere equal to the value at the
-  !> nearest point of these. Collective. Errors: PNPBS_ERROR_STATE without nodes;
+  !> Creates a transfer of a field to later sets of nodes. It holds copies of the values at the
+  !> current nodes of the placement, of these nodes, and of their triangles or tetrahedra, each rank
+  !> its own. The nodes may then move, be replaced or change their ranks, and the placement may be
+  !> destroyed. The field is linear on each triangle or tetrahedron. Beyond their boundary, next to
+  !> curved boundaries, it is extrapolated from the element at the nearest point of that boundary.
+  !> Linear fields are preserved, and others change by a term of second order in d. On surfaces
+  !> alone it is linear on each triangle between their nodes, and elsewhere equal to the value at
+  !> the nearest point of these triangles. Collective. Errors: PNPBS_ERROR_STATE without nodes;
   !> PNPBS_ERROR_ARGUMENT for another number of values, or one that is not finite: the message names
-  !> the rank, the component (from 0) and the node's id.
-  !>   placement  whose nodes have the values
+  !> the rank, the component (from 0) and the id of the node.
+  !>   placement  the placement whose nodes have the values
   !>   values     (nodes), or (components, nodes), in the order of get_nodes
   subroutine transfer_create(self, placement, values, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
@@ -2843,14 +2859,14 @@ contains
                                     size(values, 1, c_int32_t), values, self%c), stat, errmsg)
   end subroutine
 
-  !> Transfers a field as create does, with second order. At each node a quadratic polynomial passes
-  !> through its value and is fitted by least squares to those of its neighbours and of their
+  !> Creates a transfer as create does, with second order. At each node a quadratic polynomial
+  !> passes through its value and is fitted by least squares to those of its neighbours and of their
   !> neighbours. Within an element the polynomials of its corners are weighted as in the linear
-  !> field. Quadratic fields are thus preserved, and smooth ones change by a term of third order in
-  !> d. Next to jumps the field may leave the range of the values there. Where a node has too few
+  !> field. Quadratic fields are preserved, and smooth ones change by a term of third order in d.
+  !> Next to jumps the field may leave the range of the values there. Where a node has too few
   !> neighbours, its part is linear (order returns their number), as it is everywhere on surfaces
   !> alone. Collective.
-  !>   placement  whose nodes have the values
+  !>   placement  the placement whose nodes have the values
   !>   values     (nodes), or (components, nodes), in the order of get_nodes
   subroutine transfer_create_second_order(self, placement, values, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
@@ -2877,8 +2893,8 @@ contains
 
   !> Returns the order of the field. Local.
   !>   order         1 or 2
-  !>   linear_nodes  optional: nodes on all ranks without a quadratic polynomial; with order 1 all,
-  !>                 reported as -1
+  !>   linear_nodes  optional: number of nodes on all ranks without a quadratic polynomial; -1 with
+  !>                 order 1
   subroutine transfer_order(self, order, linear_nodes, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
     integer(c_int32_t), intent(out) :: order
@@ -2892,7 +2908,7 @@ contains
     if (present(linear_nodes)) linear_nodes = found
   end subroutine
 
-  !> Destroys the transfer; does nothing if there is none. Local.
+  !> Destroys the transfer, if it exists. Local.
   subroutine transfer_destroy(self, stat, errmsg)
     class(pnpbs_transfer), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -2917,21 +2933,21 @@ contains
     if (present(components)) components = found_components
   end subroutine
 
-  !> Evaluates the field at the current nodes of a placement: the same bits for any number of ranks
-  !> and threads, at creation and now. A node at the position of an earlier one gets its value
-  !> unchanged. The placement may be another one of the same context, in the same dimension.
+  !> Evaluates the field at the current nodes of a placement. The bits do not depend on the number
+  !> of ranks and threads, at creation and now. A node at the position of an earlier one has its
+  !> value unchanged. The placement may be another one of the same context and dimension.
   !> Collective. Errors: PNPBS_ERROR_CAPACITY; PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT
   !> for a placement of another context or dimension, or not on the same sphere.
-  !>   values    (nodes), or (components, nodes), in the order of get_nodes; for those of ghosts use
-  !>             update_ghosts
-  !>   conserve  optional: if true, adds the same number to the values of each component, so that
-  !>             the integral of the field that is linear on the current triangles or tetrahedra (on
-  !>             surfaces alone, triangles) equals its integral on the previous ones, to rounding.
-  !>             Where both fill the same domain, the number is of second order in d, and rounding
-  !>             for a linear field; next to curved boundaries, where they do not, it also
-  !>             compensates for the difference in what they fill. Values may leave their previous
-  !>             range. On a sphere the integral is the sum, over the triangles, of the area along
-  !>             the sphere times the mean of the values at the corners
+  !>   values    (nodes), or (components, nodes), in the order of get_nodes; use update_ghosts for
+  !>             values at ghosts
+  !>   conserve  optional: if true, one number per component is added everywhere, so that the
+  !>             integral of the field on the current triangles or tetrahedra (on surfaces alone,
+  !>             triangles) equals that on the previous ones, to rounding. If both fill the same
+  !>             domain, the number is of second order in d, and zero up to rounding for a linear
+  !>             field. Next to curved boundaries it also compensates for the difference of the
+  !>             areas or volumes. Values may leave their previous range. On a sphere the integral
+  !>             is the sum, over the triangles, of the area along the sphere times the mean of the
+  !>             values at the corners
   subroutine transfer_at_nodes(self, placement, values, conserve, stat, errmsg)
     class(pnpbs_transfer), intent(in) :: self
     type(pnpbs_placement), intent(in) :: placement
@@ -2962,8 +2978,8 @@ contains
                   stat, errmsg, given)
   end subroutine
 
-  !> Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
-  !> Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
+  !> Evaluates the field at points; each rank passes its own points, or none. Collective. Errors:
+  !> PNPBS_ERROR_ARGUMENT for coordinates that are not finite.
   !>   coordinates  (dim, n)
   !>   values       (n), or (components, n)
   subroutine transfer_at_points(self, coordinates, values, stat, errmsg)
@@ -3004,8 +3020,7 @@ contains
     integer, intent(in) :: components
     type(arguments), intent(inout) :: given
     integer(c_int32_t) :: dim, right
-    ! The call that follows returns this error.
-    if (c_transfer_sizes(self%c, dim, right) < 0) return
+    if (c_transfer_sizes(self%c, dim, right) < 0) return ! the following call reports the error
     call given%check_rows('values', components, int(right))
   end subroutine
 
@@ -3028,7 +3043,7 @@ contains
     if (present(choice)) flag = merge(1_c_int32_t, 0_c_int32_t, choice)
   end function
 
-  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Returns the handle as an integer, for code without derived types, or 0 if there is no object.
   !> Local.
   function transfer_handle(self) result(handle)
     class(pnpbs_transfer), intent(in) :: self
@@ -3036,7 +3051,7 @@ contains
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the transfer with the given handle. Local; checks nothing.
+  !> Sets the transfer to the object with the given handle, without checks. Local.
   subroutine transfer_from_handle(self, handle)
     class(pnpbs_transfer), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -3045,23 +3060,25 @@ contains
 
   ! ------------------------------------------------------------ distributed mesh --------------
 
-  !> Makes a distributed mesh of the current nodes: on each rank the nodes, elements and facets that
-  !> it owns, and layers of ghost elements with their nodes, in arrays that solvers take. No rank
-  !> holds more than its part. Elements are triangles in the plane, tetrahedra in space, and
-  !> triangles on surfaces alone, all with positive orientation (on surfaces alone counter-clockwise
-  !> as seen from the side that the normal points to). A node belongs to the rank that owns it in
-  !> the placement, and an element to the owner of its node with the lowest id. Both have numbers
-  !> from 0, as in C, contiguous by rank: within a rank, nodes in the order of their ids (as by
-  !> placement%get_numbering) and elements in the order of their corners' ids. Local indices count
-  !> from 1, and are integer(c_int32_t): first what this rank owns, in the order of the numbers,
-  !> then the ghosts, by number. The mesh is a copy: nodes may move afterwards, and the placement
-  !> may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for
-  !> ghost_layers out of 0 .. 16 or not the same on all ranks.
-  !>   placement     whose nodes and elements it has
-  !>   ghost_layers  optional. 0, the default: this rank has only the elements that it owns. 1: also
-  !>                 those of other ranks that have a node in common with these, or with the nodes
-  !>                 that it owns, so all elements at its nodes. Each further layer adds the
-  !>                 elements that have a node in common with the layer before
+  !> Creates a distributed mesh of the current nodes. On each rank it has the nodes, elements and
+  !> facets that the rank owns, and layers of ghost elements with their nodes, in arrays that
+  !> solvers need. No rank holds more than its part. Elements are triangles in the plane, tetrahedra
+  !> in space, and triangles on surfaces alone. All have a positive orientation; on surfaces alone
+  !> they are counter-clockwise as seen from the side to which the normal points. A node belongs to
+  !> the rank that owns it in the placement, and an element to the owner of its node with the lowest
+  !> id. Both have numbers from 0, as in C, which are contiguous by rank: within a rank, nodes are
+  !> in the order of their ids (as by placement%get_numbering) and elements in the order of the ids
+  !> of their corners. Local indices count from 1, and are integer(c_int32_t): first what this rank
+  !> owns, in the order of the numbers, then the ghosts, also in the order of numbers. The mesh is a
+  !> copy: nodes may move afterwards, and the placement may be destroyed. Collective. Errors:
+  !> PNPBS_ERROR_STATE without nodes; PNPBS_ERROR_ARGUMENT for ghost_layers out of 0 .. 16 or not
+  !> the same on all ranks.
+  !>   placement     the placement whose nodes and elements the mesh has
+  !>   ghost_layers  optional. With 0, the default, this rank has only the elements that it owns.
+  !>                 With 1 it also has the elements of other ranks that share a node with these
+  !>                 elements or contain a node that it owns, and therefore all elements at its
+  !>                 nodes. Each further layer adds the elements that share a node with the previous
+  !>                 layer
   subroutine mesh_create(self, placement, ghost_layers, stat, errmsg)
     class(pnpbs_mesh), intent(inout) :: self
     type(pnpbs_placement), intent(in) :: placement
@@ -3074,7 +3091,7 @@ contains
     call conclude('mesh%create', c_mesh_create(placement%c, layers, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys the mesh; does nothing if there is none. Local.
+  !> Destroys the mesh, if it exists. Local.
   subroutine mesh_destroy(self, stat, errmsg)
     class(pnpbs_mesh), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -3082,13 +3099,13 @@ contains
     call conclude('mesh%destroy', c_mesh_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Returns what this rank has. Local; all are optional.
-  !>   dim             coordinates of a node, 2 or 3
-  !>   corners         nodes of an element, 3 or 4; a facet has one less
+  !> Returns the sizes of the part of this rank. Local; all are optional.
+  !>   dim             number of coordinates of a node, 2 or 3
+  !>   corners         number of nodes of an element, 3 or 4; a facet has one less
   !>   owned_nodes     nodes that this rank owns
-  !>   nodes           these, and the nodes of other ranks in the elements here
+  !>   nodes           owned nodes, and nodes of other ranks in the elements on this rank
   !>   owned_elements  elements that this rank owns
-  !>   elements        these, and ghost elements
+  !>   elements        owned elements and ghost elements
   !>   facets          facets of these elements (see get_facets)
   subroutine mesh_sizes(self, dim, corners, owned_nodes, nodes, owned_elements, elements, facets, &
                         stat, errmsg)
@@ -3114,12 +3131,12 @@ contains
     if (present(facets)) facets = counts(5)
   end subroutine
 
-  !> Returns the numbers that this rank owns, and those of all ranks. They count from 0, as in C.
-  !> Local; all are optional.
+  !> Returns the first numbers of this rank, and the counts over all ranks. Numbers count from 0, as
+  !> in C. Local; all are optional.
   !>   first_node     this rank owns the nodes first_node .. first_node + owned_nodes - 1; 0 on
   !>                  rank 0
   !>   all_nodes      nodes of all ranks
-  !>   first_element  likewise
+  !>   first_element  likewise, for elements
   !>   all_elements   elements of all ranks, each counted once
   subroutine mesh_numbering(self, first_node, all_nodes, first_element, all_elements, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
@@ -3140,9 +3157,9 @@ contains
   !> Copies the nodes of this rank; all arrays are optional. Local.
   !>   coordinates  (dim, nodes)
   !>   numbers      (nodes) from 0
-  !>   ids          (nodes) which do not depend on the ranks
-  !>   owners       (nodes) the rank that owns it
-  !>   tags         (nodes) as placement%get_nodes
+  !>   ids          (nodes) ids, which do not depend on the ranks
+  !>   owners       (nodes) the rank that owns each node
+  !>   tags         (nodes) as in placement%get_nodes
   subroutine mesh_get_nodes(self, coordinates, numbers, ids, owners, tags, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     real(c_double), intent(inout), optional :: coordinates(:,:)
@@ -3170,9 +3187,9 @@ contains
   !> Copies the elements of this rank; all arrays are optional. Local.
   !>   nodes    (corners, elements) local indices of the nodes at the corners
   !>   numbers  (elements) from 0
-  !>   owners   (elements) the rank that owns it
-  !>   tags     (elements) of the region it lies in (domain%add_region), or 0 if the region has
-  !>            none; on surfaces alone of the surface
+  !>   owners   (elements) the rank that owns each element
+  !>   tags     (elements) tag of the region (domain%add_region), or 0 if the region has none; on
+  !>            surfaces alone tag of the surface
   subroutine mesh_get_elements(self, nodes, numbers, owners, tags, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     integer(c_int32_t), intent(inout), optional :: nodes(:,:), owners(:), tags(:)
@@ -3199,9 +3216,9 @@ contains
     end do
   end subroutine
 
-  !> Copies the numbers of the nodes at the corners of the elements of this rank, in eight or in
-  !> four bytes, as libraries have them. Local. Errors also: PNPBS_ERROR_CAPACITY for four bytes if
-  !> the mesh has more than 2**31 - 1 nodes over all ranks.
+  !> Copies the numbers of the nodes at the corners of the elements of this rank, as integers of
+  !> eight or four bytes. Local. Errors also: PNPBS_ERROR_CAPACITY for four bytes if the mesh has
+  !> more than 2**31 - 1 nodes over all ranks.
   !>   numbers  (corners, elements) from 0; integer(c_int64_t) or integer(c_int32_t)
   subroutine mesh_get_connectivity(self, numbers, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
@@ -3240,20 +3257,22 @@ contains
     call given%check_rows('numbers', rows, int(corners))
   end subroutine
 
-  !> Copies the facets of the elements of this rank: edges of triangles in the plane that are parts
-  !> of the boundary or of inner curves; triangles of tetrahedra that are parts of the boundary or
-  !> of inner surfaces; on surfaces alone the edges of only one triangle. Each comes once on a rank.
-  !> It belongs to the owner of its element with the lowest number. All arrays are optional. Local.
-  !>   nodes     (corners - 1, facets) local indices, in space counter-clockwise as seen from
-  !>             outside, or turning as the inner surface does; in the plane in the direction of the
-  !>             curve
-  !>   tags      (facets) of the curve or surface; on surfaces alone, of the surface
-  !>   elements  (2, facets) local indices of the elements at it; the second is 0 if there is none,
-  !>             or if it is not on this rank
-  !>   opposite  (facets) the corner of the first element, 1 .. corners, that is none of the facet's
-  !>   inner     (facets), logical or integer(c_int8_t): true or 1 if there are elements on both
-  !>             sides, on whichever ranks; false or 0 on the boundary
-  !>   owners    (facets) the rank it belongs to
+  !> Copies the facets of the elements of this rank. In the plane, facets are edges of triangles on
+  !> the boundary or on inner curves. In space, they are triangles of tetrahedra on the boundary or
+  !> on inner surfaces. On surfaces alone, they are the edges of only one triangle. Each facet
+  !> occurs once on a rank. It belongs to the owner of its element with the lowest number. All
+  !> arrays are optional. Local.
+  !>   nodes     (corners - 1, facets) local indices. In space they are counter-clockwise as seen
+  !>             from outside, or oriented as the inner surface; in the plane they are in the
+  !>             direction of the curve
+  !>   tags      (facets) tag of the curve or surface; on surfaces alone tag of the surface
+  !>   elements  (2, facets) local indices of the elements at each facet; the second is 0 if it does
+  !>             not exist or is not on this rank
+  !>   opposite  (facets) index, 1 .. corners, of the corner of the first element that is not a
+  !>             corner of the facet
+  !>   inner     (facets), logical or integer(c_int8_t): true or 1 if elements lie on both sides, on
+  !>             any ranks; false or 0 on the boundary
+  !>   owners    (facets) the rank to which each facet belongs
   subroutine mesh_get_facets(self, nodes, tags, elements, opposite, inner, owners, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     integer(c_int32_t), intent(inout), optional :: nodes(:,:), tags(:), elements(:,:), opposite(:)
@@ -3301,8 +3320,8 @@ contains
   end subroutine
 
   !> Returns the sizes of the arrays of get_sharing. Local; all are optional.
-  !>   nodes    nodes that this rank shares
-  !>   entries  ranks it shares them with, added up over these nodes
+  !>   nodes    number of nodes that this rank shares
+  !>   entries  number of sharing ranks, summed over these nodes
   subroutine mesh_sharing_sizes(self, nodes, entries, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     integer(c_int64_t), intent(out), optional :: nodes, entries
@@ -3316,10 +3335,10 @@ contains
     if (present(entries)) entries = found(2)
   end subroutine
 
-  !> Copies which ranks share nodes with this one: node shared(k) is shared with
-  !> ranks(offsets(k) : offsets(k+1)-1). A node is shared by its owner and the ranks that own an
-  !> element at it. Local.
-  !>   shared   (nodes) local indices of the nodes, by number
+  !> Copies the ranks that share nodes with this one: node shared(k) is shared with ranks(offsets(k)
+  !> : offsets(k+1)-1). A node is shared by its owner and the ranks that own an element at it.
+  !> Local.
+  !>   shared   (nodes) local indices of the nodes, in the order of numbers
   !>   offsets  (nodes + 1)
   !>   ranks    (entries) other ranks, counted from 0 as in MPI, in increasing order for each node
   subroutine mesh_get_sharing(self, shared, offsets, ranks, stat, errmsg)
@@ -3343,17 +3362,17 @@ contains
     call count_from_one(offsets(:nodes + 1))
   end subroutine
 
-  !> Writes the mesh in files of Gmsh's format 4.1, in parts as Gmsh partitions a mesh: rank r
-  !> writes prefix_<r + 1>.msh, partition r + 1. The file has the nodes, elements and ghost elements
+  !> Writes the mesh into files of Gmsh's format 4.1, partitioned as Gmsh does it: rank r writes
+  !> prefix_<r + 1>.msh, which is partition r + 1. A file has the nodes, elements and ghost elements
   !> of the rank and the facets that it owns. Nodes and elements have their numbers plus 1, and
-  !> facets are numbered behind all elements, so that the files have the same numbers for the same
-  !> things. Tags are physical groups, named as by placement%write; the inside is one, too. Programs
-  !> that read ghost elements, such as deal.II, need a mesh of one ghost layer; without layers the
-  !> files have none. All files appear when all are complete; after an error, existing files are
-  !> unchanged. Files of an earlier mesh on more ranks remain. Collective. Errors:
-  !> PNPBS_ERROR_ARGUMENT for a prefix that is empty or not the same on all ranks; PNPBS_ERROR_FILE
-  !> on all ranks if one cannot write, with a message that names its file.
-  !>   prefix  folder and begin of the names of the files; trailing blanks are ignored
+  !> facets are numbered after all elements, so all files use the same numbers. Tags are physical
+  !> groups, named as by placement%write; the inside is a group, too. Programs that read ghost
+  !> elements, such as deal.II, need a mesh of one ghost layer. All files appear when all are
+  !> complete; after an error, existing files are unchanged. Files of an earlier mesh on more ranks
+  !> remain. Collective. Errors: PNPBS_ERROR_ARGUMENT for a prefix that is empty or not the same on
+  !> all ranks; PNPBS_ERROR_FILE on all ranks if one cannot write, with a message that names its
+  !> file.
+  !>   prefix  folder and beginning of the names of the files; trailing blanks are ignored
   subroutine mesh_write(self, prefix, stat, errmsg)
     class(pnpbs_mesh), intent(in) :: self
     character(len=*), intent(in) :: prefix
@@ -3362,7 +3381,7 @@ contains
     call conclude('mesh%write', c_mesh_write(self%c, c_text(prefix)), stat, errmsg)
   end subroutine
 
-  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Returns the handle as an integer, for code without derived types, or 0 if there is no object.
   !> Local.
   function mesh_handle(self) result(handle)
     class(pnpbs_mesh), intent(in) :: self
@@ -3370,7 +3389,7 @@ contains
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the mesh with the given handle. Local; checks nothing.
+  !> Sets the mesh to the object with the given handle, without checks. Local.
   subroutine mesh_from_handle(self, handle)
     class(pnpbs_mesh), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -3379,17 +3398,17 @@ contains
 
   ! ------------------------------------------------------------ Voronoi cells -----------------
 
-  !> Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
-  !> placement that is closer to it than to any other, with its volume, its faces to neighbours and
-  !> its share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces
-  !> are lengths there; on surfaces distances are straight, and on spheres lengths, areas and
+  !> Creates the Voronoi cells of the current nodes: for each node the part of the elements of the
+  !> placement that is closer to it than to any other node, with its volume, its faces to neighbours
+  !> and its share of the boundary. In the plane and on surfaces, volumes are areas, and areas of
+  !> faces are lengths. On surfaces alone distances are straight. On spheres lengths, areas and
   !> distances are along the sphere. Each element is divided among the corners of all elements that
-  !> touch it, so a node sees none through a gap that has no elements. The volumes add up to that of
-  !> the elements to rounding, on spheres to that of the triangles along the sphere. Cells are functions of the nodes alone:
-  !> any number of ranks and threads gives the same bits. They are a copy: nodes may move
+  !> touch it, so a cell does not extend through a gap without elements. The volumes add up to that
+  !> of the elements, up to rounding; on spheres, to the area of the triangles along the sphere. The
+  !> bits do not depend on the number of ranks and threads. The cells are copies: nodes may move
   !> afterwards, and the placement may be destroyed. Collective. Errors: PNPBS_ERROR_STATE without
   !> nodes.
-  !>   placement  whose nodes have the cells
+  !>   placement  the placement whose nodes have the cells
   subroutine voronoi_create(self, placement, stat, errmsg)
     class(pnpbs_voronoi), intent(inout) :: self
     type(pnpbs_placement), intent(in) :: placement
@@ -3398,7 +3417,7 @@ contains
     call conclude('voronoi%create', c_voronoi_create(placement%c, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys the cells; does nothing if there are none. Local.
+  !> Destroys the cells, if they exist. Local.
   subroutine voronoi_destroy(self, stat, errmsg)
     class(pnpbs_voronoi), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -3407,9 +3426,9 @@ contains
   end subroutine
 
   !> Returns the sizes of the cells of this rank. Local; all are optional.
-  !>   dim    coordinates of a node, 2 or 3
+  !>   dim    number of coordinates of a node, 2 or 3
   !>   nodes  nodes that this rank owns, each of which has a cell
-  !>   faces  faces of these cells: a face between two of them counts twice
+  !>   faces  faces of these cells; a face between two of them is counted twice
   subroutine voronoi_sizes(self, dim, nodes, faces, stat, errmsg)
     class(pnpbs_voronoi), intent(in) :: self
     integer(c_int32_t), intent(out), optional :: dim
@@ -3428,12 +3447,12 @@ contains
   end subroutine
 
   !> Copies the volumes of the cells and their shares of the boundary; both are optional. Nodes are
-  !> in the order of placement%get_nodes. In the plane and in bodies the areas of a cell's faces
-  !> times their normals and its share of the boundary add up to 0. Local.
+  !> in the order of placement%get_nodes. In the plane and in bodies, the areas of the faces of a
+  !> cell times their normals and its share of the boundary add up to 0. Local.
   !>   volumes   (nodes)
   !>   boundary  (dim, nodes) the outward normal integrated over the part of the boundary that is
-  !>             closest to the node: where the boundary is flat, its length is the area of this
-  !>             part; 0 for nodes away from the boundary
+  !>             closest to the node. Where the boundary is flat, its length is the area of this
+  !>             part. It is 0 for nodes away from the boundary
   subroutine voronoi_get_cells(self, volumes, boundary, stat, errmsg)
     class(pnpbs_voronoi), intent(in) :: self
     real(c_double), intent(inout), optional :: volumes(:), boundary(:,:)
@@ -3453,13 +3472,13 @@ contains
   end subroutine
 
   !> Copies the faces of the cells in compressed rows: those of local node i are offsets(i) to
-  !> offsets(i+1)-1, in the order of the neighbours' ids. Both cells at a face have the same area
-  !> and distance to the last bit. All arrays but offsets are optional. Local.
+  !> offsets(i+1)-1, in the order of the ids of the neighbours. Both cells at a face have the same
+  !> area and distance to the last bit. All arrays but offsets are optional. Local.
   !>   offsets    (nodes + 1)
-  !>   ids        (faces) of the neighbour
-  !>   numbers    (faces) of the neighbour, from 0, as by placement%get_numbering
+  !>   ids        (faces) id of the neighbour
+  !>   numbers    (faces) number of the neighbour, from 0, as in placement%get_numbering
   !>   areas      (faces)
-  !>   distances  (faces) from the node to the neighbour
+  !>   distances  (faces) distance from the node to the neighbour
   !>   normals    (dim, faces) unit vector from the node to the neighbour
   subroutine voronoi_get_faces(self, offsets, ids, numbers, areas, distances, normals, stat, errmsg)
     class(pnpbs_voronoi), intent(in) :: self
@@ -3488,7 +3507,7 @@ contains
     if (status >= 0) call count_from_one(offsets(:nodes + 1))
   end subroutine
 
-  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Returns the handle as an integer, for code without derived types, or 0 if there is no object.
   !> Local.
   function voronoi_handle(self) result(handle)
     class(pnpbs_voronoi), intent(in) :: self
@@ -3496,7 +3515,7 @@ contains
     handle = integer_of(self%c)
   end function
 
-  !> Makes these the cells with the given handle. Local; checks nothing.
+  !> Sets the cells to the object with the given handle, without checks. Local.
   subroutine voronoi_from_handle(self, handle)
     class(pnpbs_voronoi), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -3505,22 +3524,23 @@ contains
 
   ! ------------------------------------------------------------ particles ---------------------
 
-  !> Makes particles that fill a body: each stands for a piece of matter of about d^2, or d^3 in
-  !> space. The nodes of the placement, which lie in what domain%add_offset makes of the body, become
-  !> the particles. Where two are closer than 0.5 times the mean of their d, as at creases and in
-  !> thin places, one of them is left out; then pairs closer than 0.85, or 0.9 in the plane, are
-  !> pushed apart, as far as the wall and other particles allow, by at most 0.3 d; and of pairs still
-  !> closer than 0.611, or 0.651 in the plane, one is left out. All others stay where they are. The
-  !> volume of a particle is that of its Voronoi cell within the elements (voronoi%create). At the
-  !> wall, and beside particles that have moved or are left out, it is that of what the particle sees
-  !> of the body, up to halfway to others, times one factor, so that all volumes add up to the body's
-  !> measure. Any number of ranks and threads gives the same bits. The particles are a copy, and the
-  !> placement stays as it is. Collective. Errors: PNPBS_ERROR_STATE without nodes;
+  !> Creates particles that fill a body. Each represents a piece of matter of about d^2, or d^3 in
+  !> space. The nodes of the placement, which lie in the offset that domain%add_offset makes of the
+  !> body, become the particles. Where two are closer than 0.5 times the mean of their d, as at
+  !> creases and in thin places, one of them is left out. Then pairs closer than 0.85 times that
+  !> mean in space, or 0.9 times in the plane, are pushed apart by at most 0.3 d, as far as the wall
+  !> and other particles allow. Of pairs that are still closer than 0.611 in space, or 0.651 in the
+  !> plane, one is left out. All others keep their positions. The volume of a particle is that of
+  !> its Voronoi cell within the elements (voronoi%create). At the wall, and next to particles that
+  !> have moved or are left out, it is the volume of the part of the body that is visible from the
+  !> particle, up to halfway to others, times one factor, so that all volumes add up to the measure
+  !> of the body. The bits do not depend on the number of ranks and threads. The particles are a
+  !> copy, and the placement does not change. Collective. Errors: PNPBS_ERROR_STATE without nodes;
   !> PNPBS_ERROR_ARGUMENT for a placement on surfaces alone, or a body without inside;
-  !> PNPBS_ERROR_DOMAIN as in domain%check, if a node is not strictly inside of the body, or if the
-  !> factor is not between 0.8 and 1.25: then the nodes do not fill the body.
-  !>   placement  whose nodes become particles
-  !>   body       with the placement's dimension, on the same context
+  !> PNPBS_ERROR_DOMAIN as in domain%check, if a node is not strictly inside the body, or if the
+  !> factor is not between 0.8 and 1.25, because the nodes do not fill the body then.
+  !>   placement  the placement whose nodes become particles
+  !>   body       a domain with the dimension and on the context of the placement
   subroutine particles_create(self, placement, body, stat, errmsg)
     class(pnpbs_particles), intent(inout) :: self
     type(pnpbs_placement), intent(in) :: placement
@@ -3530,7 +3550,7 @@ contains
     call conclude('particles%create', c_particles_create(placement%c, body%c, self%c), stat, errmsg)
   end subroutine
 
-  !> Destroys the particles; does nothing if there are none. Local.
+  !> Destroys the particles, if they exist. Local.
   subroutine particles_destroy(self, stat, errmsg)
     class(pnpbs_particles), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -3538,10 +3558,10 @@ contains
     call conclude('particles%destroy', c_particles_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Returns how many particles there are. Local; all are optional.
-  !>   dim    coordinates of a particle, 2 or 3
-  !>   count  particles of this rank
-  !>   all    particles of all ranks
+  !> Returns the numbers of particles. Local; all are optional.
+  !>   dim    number of coordinates of a particle, 2 or 3
+  !>   count  number of particles of this rank
+  !>   all    number of particles of all ranks
   subroutine particles_sizes(self, dim, count, all, stat, errmsg)
     class(pnpbs_particles), intent(in) :: self
     integer(c_int32_t), intent(out), optional :: dim
@@ -3559,9 +3579,9 @@ contains
     if (present(all)) all = counts(2)
   end subroutine
 
-  !> Returns what became of the nodes, over all ranks. Local; all are optional.
-  !>   left_out  nodes left out because others are too close
-  !>   moved     particles that were pushed away from where their nodes are
+  !> Returns statistics over all ranks. Local; all are optional.
+  !>   left_out  number of nodes left out because others are too close
+  !>   moved     number of particles that were pushed away from the positions of their nodes
   !>   closest   the least distance of two particles over the mean of their d; infinity if no two
   !>             are closer than that mean
   subroutine particles_figures(self, left_out, moved, closest, stat, errmsg)
@@ -3583,10 +3603,12 @@ contains
 
   !> Copies the particles of this rank, in the order of their ids; all arrays are optional. Local.
   !>   x        (dim, count) coordinates
-  !>   volumes  (count) areas in the plane; over all ranks they add up to the body's
-  !>   spacing  (count) d of the bubbles that they were
-  !>   ids      (count) of the nodes that they were; there may be gaps
-  !>   tags     (count) of these nodes: the outermost ones have that of the offset, all others 0
+  !>   volumes  (count) volumes, or areas in the plane; over all ranks they add up to that of the
+  !>            body
+  !>   spacing  (count) d of the nodes from which the particles were made
+  !>   ids      (count) ids of these nodes; some numbers may be missing
+  !>   tags     (count) tags of these nodes: the outermost ones have that of the offset, all others
+  !>            0
   subroutine particles_get(self, x, volumes, spacing, ids, tags, stat, errmsg)
     class(pnpbs_particles), intent(in) :: self
     real(c_double), intent(inout), optional :: x(:,:), volumes(:), spacing(:)
@@ -3611,11 +3633,12 @@ contains
     call conclude('particles%get', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a field of the caller to files of particles written from now on, in the formats that
-  !> placement%add_output_field names. A name can be used once. The values are copied. Local. Errors:
-  !> PNPBS_ERROR_ARGUMENT.
-  !>   name    as there; none of id, tag, spacing, volume, quality and vtkGhostType
-  !>   values  (n), or (components, n): of this rank's particles at least, in the order of get
+  !> Adds a field of the caller to files of particles that are written afterwards, in the formats
+  !> that placement%add_output_field names. A name can be used once. The values are copied. Local.
+  !> Errors: PNPBS_ERROR_ARGUMENT.
+  !>   name    as in placement%add_output_field; none of id, tag, spacing, volume, quality and
+  !>           vtkGhostType
+  !>   values  (n), or (components, n): values at the particles of this rank, in the order of get
   subroutine particles_add_output_field(self, name, values, stat, errmsg)
     class(pnpbs_particles), intent(in) :: self
     character(len=*), intent(in) :: name
@@ -3638,12 +3661,12 @@ contains
                                                size(values, 1, c_int32_t), values), stat, errmsg)
   end subroutine
 
-  !> Writes the particles of all ranks into one file, in the format of its extension: id, tag and
-  !> spacing, in the formats that have fields the field `volume` and those added, as placement%write
-  !> writes nodes without elements. Formats of elements alone and .pvtu are PNPBS_ERROR_ARGUMENT.
-  !> The file has the same bytes for any number of ranks and threads. While the placement exists,
-  !> its monitor is called, and can stop the call, as there. Collective. stat: PNPBS_OK,
-  !> PNPBS_STOPPED. Errors: as there.
+  !> Writes the particles of all ranks into one file, in the format of its extension, as
+  !> placement%write writes nodes without elements. The file has id, tag and spacing, and, in
+  !> formats with fields, the field `volume` and the added fields. Formats of elements alone and
+  !> .pvtu are PNPBS_ERROR_ARGUMENT. The bytes of the file do not depend on the number of ranks and
+  !> threads. While the placement exists, its monitor is called and can stop the call. Collective.
+  !> stat: PNPBS_OK, PNPBS_STOPPED. Errors: as in placement%write.
   !>   path  trailing blanks are ignored
   subroutine particles_write(self, path, stat, errmsg)
     class(pnpbs_particles), intent(in) :: self
@@ -3656,8 +3679,8 @@ contains
                   c_particles_write(self%c, 1_c_int32_t, paths%addresses, c_null_ptr), stat, errmsg)
   end subroutine
 
-  !> Writes several files, which appear together when all of them are complete. Otherwise as write.
-  !> Collective.
+  !> Writes several files, which appear together when all of them are complete. Otherwise the
+  !> procedure is like write. Collective.
   !>   paths    (n)
   !>   formats  optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
   subroutine particles_write_files(self, paths, formats, stat, errmsg)
@@ -3679,7 +3702,7 @@ contains
     call conclude('particles%write_files', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the handle as an integer, for code that cannot hold the type; 0 if there is none.
+  !> Returns the handle as an integer, for code without derived types, or 0 if there is no object.
   !> Local.
   function particles_handle(self) result(handle)
     class(pnpbs_particles), intent(in) :: self
@@ -3687,7 +3710,7 @@ contains
     handle = integer_of(self%c)
   end function
 
-  !> Makes these the particles with the given handle. Local; checks nothing.
+  !> Sets the particles to the object with the given handle, without checks. Local.
   subroutine particles_from_handle(self, handle)
     class(pnpbs_particles), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -3698,14 +3721,14 @@ contains
 
   !> Writes the nodes of all ranks into one file, at the same time, in the format of its extension:
   !> .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2, .node, .ele, .face, .gr3, .2dm, .ugrid, .csv,
-  !> .peridigm, .lammps, .hdf5, .mpas, .graph
-  !> (see pnpbs_placement_write in pnpbs.h). A file appears under its name only when it is complete;
-  !> after an error, an existing file is unchanged. The folder and path must be the same for all ranks. The monitor, if
-  !> there is one, is called from time to time. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors:
-  !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_STATE if there are no nodes yet,
-  !> PNPBS_ERROR_ARGUMENT.
+  !> .peridigm, .lammps, .hdf5, .mpas, .graph (see pnpbs_placement_write in pnpbs.h). A file appears
+  !> under its name only when it is complete; after an error, an existing file is unchanged. The
+  !> folder and path must be the same for all ranks. The monitor, if there is one, is called from
+  !> time to time. Collective. stat: PNPBS_OK, PNPBS_STOPPED. Errors: PNPBS_ERROR_FILE naming the
+  !> file, PNPBS_ERROR_STATE if there are no nodes yet, PNPBS_ERROR_ARGUMENT.
   !>   path      trailing blanks are ignored
-  !>   elements  optional: triangles or tetrahedra (and the boundary) as well; default: .false.
+  !>   elements  optional: whether to write triangles or tetrahedra (and the boundary) as well;
+  !>             default: .false.
   subroutine placement_write(self, path, elements, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
@@ -3719,8 +3742,8 @@ contains
                   c_placement_write(self%c, c_text(path), with_elements), stat, errmsg)
   end subroutine
 
-  !> Writes several files, which appear together when all of them are complete. Otherwise as write.
-  !> Collective.
+  !> Writes several files, which appear together when all of them are complete. Otherwise the
+  !> procedure is like write. Collective.
   !>   paths     (n)
   !>   formats   optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
   !>   elements  optional, (n); default: .false.
@@ -3753,17 +3776,18 @@ contains
     call conclude('placement%write_files', status, stat, errmsg, given)
   end subroutine
 
-  !> Adds a field of the caller to files written from now on: beside id, tag and spacing in .vtu,
-  !> .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData, and in .csv as a column "name", or
-  !> "name:0", "name:1" and so on. Other formats omit it. The values are copied. They belong to the
-  !> current nodes: once these have moved or changed their ranks, writing is PNPBS_ERROR_STATE until
-  !> clear_output_fields. When files are written, all ranks must have added the same fields in the
-  !> same order. Local. Errors: PNPBS_ERROR_ARGUMENT for a name that is taken, more than 9
-  !> components, or too few values; PNPBS_ERROR_STATE without nodes.
+  !> Adds a field of the caller to files that are written afterwards. The field appears next to id,
+  !> tag and spacing in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as $NodeData, and in .csv
+  !> as a column "name", or "name:0", "name:1" and so on. Other formats omit it. The values are
+  !> copied. They belong to the current nodes: once these have moved or changed their ranks, writing
+  !> is PNPBS_ERROR_STATE until clear_output_fields is called. When files are written, all ranks
+  !> must have added the same fields in the same order. Local. Errors: PNPBS_ERROR_ARGUMENT for a
+  !> name that is in use, more than 9 components, or too few values; PNPBS_ERROR_STATE without
+  !> nodes.
   !>   name    1 to 63 letters, digits, '_' and '-'; none of id, tag, spacing, quality and
   !>           vtkGhostType; trailing blanks are ignored
-  !>   values  (n), or (components, n): of this rank's nodes at least; entries after them, for its
-  !>           ghosts, are ignored
+  !>   values  (n), or (components, n): values at the nodes of this rank; values at its ghosts may
+  !>           follow and are ignored
   subroutine placement_add_output_field(self, name, values, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: name
@@ -3796,11 +3820,12 @@ contains
   end subroutine
 
   !> Writes a checkpoint: a file from which read_checkpoint continues, in another process and on any
-  !> number of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView
-  !> opens: name it .vtkhdf. It replaces an existing file once it is complete. May be called from a
-  !> monitor, on all ranks, in its calls between two steps (see pnpbs_placement_write_checkpoint in
-  !> pnpbs.h). Collective. Errors: PNPBS_ERROR_STATE, PNPBS_ERROR_FILE naming the file,
-  !> PNPBS_ERROR_UNSUPPORTED if the library was built without HDF5, PNPBS_ERROR_ARGUMENT.
+  !> number of ranks, bit for bit as if there was no interruption. The format is VTKHDF, which
+  !> ParaView opens, so name the file .vtkhdf. It replaces an existing file when it is complete. A
+  !> monitor may call this procedure, on all ranks, in its calls between two steps (see
+  !> pnpbs_placement_write_checkpoint in pnpbs.h). Collective. Errors: PNPBS_ERROR_STATE,
+  !> PNPBS_ERROR_FILE naming the file, PNPBS_ERROR_UNSUPPORTED if the library was built without
+  !> HDF5, PNPBS_ERROR_ARGUMENT.
   !>   path  trailing blanks are ignored
   subroutine placement_write_checkpoint(self, path, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -3811,11 +3836,12 @@ contains
                   c_placement_write_checkpoint(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> Restores a placement from a checkpoint, with the domain, options and spacing of the first run
-  !> (except a spacing given by values at nodes, which the file contains). The next run or step does
-  !> what it would have done there. After an error the placement is unchanged. Collective. Errors:
-  !> PNPBS_ERROR_FILE naming the file if it is damaged or not a checkpoint, PNPBS_ERROR_DOMAIN,
-  !> PNPBS_ERROR_SPACING or PNPBS_ERROR_ARGUMENT if it is of another run, PNPBS_ERROR_UNSUPPORTED.
+  !> Restores a placement from a checkpoint. The placement must have the domain, options and spacing
+  !> of the first run, except a spacing given by values at nodes, which the file contains. The next
+  !> run or step does what it would have done where the checkpoint was written. After an error the
+  !> placement is unchanged. Collective. Errors: PNPBS_ERROR_FILE naming the file if it is damaged
+  !> or not a checkpoint, PNPBS_ERROR_DOMAIN, PNPBS_ERROR_SPACING or PNPBS_ERROR_ARGUMENT if it is
+  !> of another run, PNPBS_ERROR_UNSUPPORTED.
   !>   path  trailing blanks are ignored
   subroutine placement_read_checkpoint(self, path, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -3826,14 +3852,14 @@ contains
                   c_placement_read_checkpoint(self%c, c_text(path)), stat, errmsg)
   end subroutine
 
-  !> Returns the handle as an integer; 0 if there is no placement. Local.
+  !> Returns the handle as an integer, or 0 if there is no placement. Local.
   function placement_handle(self) result(handle)
     class(pnpbs_placement), intent(in) :: self
     integer(c_int64_t) :: handle
     handle = integer_of(self%c)
   end function
 
-  !> Makes this the placement with the given handle. Local; checks nothing.
+  !> Sets the placement to the object with the given handle, without checks. Local.
   subroutine placement_from_handle(self, handle)
     class(pnpbs_placement), intent(inout) :: self
     integer(c_int64_t), intent(in) :: handle
@@ -3869,8 +3895,8 @@ contains
     if (present(feature_angle)) value = feature_angle
   end function
 
-  ! Returns the dimension of a domain or placement. A dead handle takes precedence over errors in
-  ! arrays.
+  ! Returns the dimension of a domain or placement. The error of a dead handle has priority over
+  ! errors in arrays.
   function dimension_of(object, given) result(dim)
     class(*), intent(in) :: object
     type(arguments), intent(inout) :: given
@@ -3889,7 +3915,7 @@ contains
     dim = found
   end function
 
-  ! Returns the dimension of the triangles or tetrahedra: 2 for triangles, also on a sphere.
+  ! Returns the dimension of elements of a background mesh: 2 for triangles, also on a sphere.
   function extent_of_elements(placement, given) result(extent)
     class(pnpbs_placement), intent(in) :: placement
     type(arguments), intent(inout) :: given
@@ -3900,7 +3926,7 @@ contains
     if (radius > 0) extent = 2
   end function
 
-  ! Returns the number of nodes, or 0 if the placement is dead; the call that follows returns this
+  ! Returns the number of nodes, or 0 if the placement is dead; the following call reports that
   ! error.
   function nodes_of(placement) result(nodes)
     type(c_ptr), intent(in) :: placement

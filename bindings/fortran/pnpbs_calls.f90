@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Conversions between the modules pnpbs and pnpbs_geo and the C interface: arrays become addresses,
-!> C strings become Fortran strings, and a status becomes stat and errmsg, or the end of the
-!> program.
+!> Conversions between the modules pnpbs and pnpbs_geo and the C interface. Arrays become addresses,
+!> C strings become Fortran strings, and a status becomes stat and errmsg, or stops the program.
 module pnpbs_calls
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -14,8 +13,8 @@ module pnpbs_calls
   integer(c_int64_t), parameter :: unlimited = huge(0_c_int64_t)
 
   !> The arguments of one call, and the first error in them. On several ranks the call must be made
-  !> even after an error, or the other ranks would wait forever. It is then made with a capacity of
-  !> -1, which the library rejects on all of them.
+  !> even after an error, because the other ranks block otherwise. It is then made with a capacity
+  !> of -1, which the library rejects on all ranks.
   type :: arguments
     private
     integer(c_int) :: status = PNPBS_OK
@@ -26,8 +25,8 @@ module pnpbs_calls
     procedure :: is_wrong
     procedure :: capacity
     procedure :: found
-    ! place_<type>(name, array, [rows,] address, room): the address of an array's first element,
-    ! NULL if the array is absent, and its number of elements or columns.
+    ! place_<type>(name, array, [rows,] address, room): returns the address of the first element of
+    ! an array, or NULL if the array is absent, and the number of its elements or columns.
     procedure :: place_int8
     procedure :: place_int32
     procedure :: place_int64
@@ -42,7 +41,7 @@ module pnpbs_calls
     procedure, private :: check_neighbours_in_memory
   end type
 
-  !> Texts for C without trailing blanks, and their addresses. A variable of this type must be a
+  !> Texts for C, without trailing blanks, with their addresses. A variable of this type must be a
   !> target.
   type :: texts
     type(c_ptr), allocatable :: addresses(:)
@@ -51,7 +50,7 @@ module pnpbs_calls
     procedure :: put
   end type
 
-  ! The address that stands for arrays without elements, which are present but empty.
+  ! The target of addresses of empty arrays: not NULL, but without elements.
   integer(c_int64_t), target, save :: nothing = 0
 
   !> Converts indices and offsets of C, from 0, to those of Fortran, from 1.
@@ -73,10 +72,11 @@ contains
 
   ! ------------------------------------------------------------ status ------------------------
 
-  !> Ends every call of a procedure. With stat the program continues: stat is set to the status, and
-  !> errmsg, if present, to the message of an error (otherwise it is unchanged). Without stat an
-  !> error stops the program, and the message begins with the procedure's name. The message of an
-  !> error is the last one of libpnpbs, or `said`, the last one of another library.
+  !> Concludes every call of a procedure. With stat the program continues: stat is set to the
+  !> status, and errmsg, if present, to the message of an error; without an error it does not
+  !> change. Without stat, an error stops the program, and the message begins with the name of the
+  !> procedure. The message of an error is the last one of libpnpbs, or `said`, the last one of
+  !> another library.
   subroutine conclude(procedure_name, status, stat, errmsg, given, said)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -108,8 +108,8 @@ contains
     end if
   end subroutine
 
-  ! Sets stat, an integer of four or eight bytes, as code may be compiled with eight-byte default
-  ! integers.
+  ! Sets stat, an integer of four or eight bytes, because code may be compiled with eight-byte
+  ! default integers.
   subroutine tell(procedure_name, status, stat)
     character(len=*), intent(in) :: procedure_name
     integer(c_int), intent(in) :: status
@@ -124,7 +124,7 @@ contains
     end select
   end subroutine
 
-  ! Prints a message and ends the program with status 1. "stop <text>" would end it with status 0.
+  ! Stops the program with exit status 1. The statement "stop <text>" has exit status 0.
   subroutine give_up(message)
     character(len=*), intent(in) :: message
     write (error_unit, '(2a)') 'pnpbs: ', message
@@ -167,7 +167,7 @@ contains
     end do
   end function
 
-  !> Returns a text for C, without trailing blanks.
+  !> Returns a null-terminated text for C, without trailing blanks.
   function c_text(text) result(c)
     character(len=*), intent(in) :: text
     character(kind=c_char, len=len_trim(text) + 1) :: c
@@ -206,7 +206,7 @@ contains
 
   ! ------------------------------------------------------------ arguments ---------------------
 
-  !> Records an error; only the first one is kept.
+  !> Records an error, unless there is one already.
   subroutine refuse(self, status, message)
     class(arguments), intent(inout) :: self
     integer(c_int), intent(in) :: status
@@ -216,7 +216,7 @@ contains
     self%message = message
   end subroutine
 
-  !> Rejects an array with less room than required.
+  !> Rejects an array with fewer elements than required.
   subroutine require(self, name, room, needed)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -240,7 +240,7 @@ contains
     found = self%status
   end function
 
-  !> Returns the room to report to the library: -1 after an error.
+  !> Returns the capacity for the library, which is -1 after an error.
   function capacity(self, room)
     class(arguments), intent(in) :: self
     integer(c_int64_t), intent(in) :: room
@@ -366,7 +366,7 @@ contains
       call self%check_neighbours_in_memory(name, address, c_loc(array(1, 2)), 8 * rows)
   end subroutine
 
-  ! Places pairs of points, whose shape is (rows, 2, room).
+  ! Places pairs of points, (rows, 2, room).
   subroutine place_real_pairs(self, name, array, rows, address, room)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -388,7 +388,7 @@ contains
       call self%check_neighbours_in_memory(name, address, c_loc(array(1, 1, 2)), 16 * rows)
   end subroutine
 
-  !> Places the optional formats of n files, NULL where one is blank.
+  !> Places the optional formats of n files; a blank format becomes NULL.
   subroutine place_formats(self, formats, n, c_formats, address)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in), optional :: formats(:)
@@ -432,7 +432,7 @@ contains
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
-  !> Rejects an array of another rank than the dimension.
+  !> Rejects an array whose rank differs from the dimension.
   subroutine check_rank(self, name, rank_of_array, dim)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name
@@ -443,7 +443,7 @@ contains
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
-  ! Rejects an array that is not contiguous, as C needs contiguous arrays.
+  ! Rejects an array with gaps in memory, because C needs contiguous arrays.
   subroutine check_neighbours_in_memory(self, name, first, second, bytes)
     class(arguments), intent(inout) :: self
     character(len=*), intent(in) :: name

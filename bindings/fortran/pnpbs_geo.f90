@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> PNPBS - geographic shapes: reads GeoJSON, shapefiles, GeoPackage and whatever else GDAL reads,
-!> projected by PROJ, into a domain in the plane or on a sphere. The Fortran 2003 module of
-!> libpnpbs_geo, which exists only where PNPBS was built with GDAL.
+!> PNPBS - geographic shapes: reads GeoJSON, shapefiles, GeoPackage and other formats of GDAL,
+!> projects them by PROJ, and adds them to a domain in the plane or on a sphere. This is the Fortran
+!> 2003 module of libpnpbs_geo, which exists only if PNPBS was built with GDAL.
 !>
-!> It corresponds to the C interface (pnpbs/pnpbs_geo.h), which explains how polygons, lines and
-!> points are interpreted. A page with an example: docs/guide/shapes.md. The conventions of the
-!> module pnpbs apply; errmsg holds the message of this library. All procedures are local: on
-!> several ranks all must make the same calls.
+!> The module corresponds to the C interface (pnpbs/pnpbs_geo.h), which explains how polygons, lines
+!> and points are interpreted. docs/guide/shapes.md has an example. The conventions of the module
+!> pnpbs apply; errmsg holds the message of this library. All procedures are local. On several ranks
+!> all must make the same calls.
 module pnpbs_geo
   use, intrinsic :: iso_c_binding
   use pnpbs, only: pnpbs_context, pnpbs_domain
@@ -71,14 +71,15 @@ contains
     text = text_of(c_geo_build_info())
   end function
 
-  !> Reads one layer of a file and projects it. Local. Destroy previously read shapes first.
+  !> Reads one layer of a file and projects it. Destroy previously read shapes first. Local.
   !>   path        a file, or anything else that GDAL opens
-  !>   layer       optional: its name; without it, the file must have only one
+  !>   layer       optional: the name of the layer; default: the only one
   !>   projection  optional: the coordinate system of x and y: 'auto', 'none', a code ('EPSG:2180'),
   !>               a PROJ string, WKT, the path of a .prj file, or, for a domain on a sphere,
-  !>               'sphere(LON,LAT)' with the longitude and latitude of the point outside. Default:
-  !>               longitude and latitude are projected as by 'auto', projected coordinates are kept
-  !>   unit        optional: 'm' or 'km'; default: the projection's own, mostly metres
+  !>               'sphere(LON,LAT)' with longitude and latitude of the point outside. By default
+  !>               longitude and latitude are projected as by 'auto', and projected coordinates are
+  !>               kept
+  !>   unit        optional: 'm' or 'km'; default: the unit of the projection, mostly metres
   !>   tag_field   optional: the attribute that becomes the tag; default: all tags are 1
   subroutine geo_read(self, path, layer, projection, unit, tag_field, stat, errmsg)
     class(pnpbs_geo_shapes), intent(inout) :: self
@@ -92,7 +93,7 @@ contains
     call conclude_geo('read', status, stat, errmsg)
   end subroutine
 
-  !> Destroys the shapes. What was added to domains stays there. Local.
+  !> Destroys the shapes. Shapes that were added to domains remain there. Local.
   subroutine geo_destroy(self, stat, errmsg)
     class(pnpbs_geo_shapes), intent(inout) :: self
     class(*), intent(out), optional :: stat
@@ -101,9 +102,9 @@ contains
   end subroutine
 
   !> Adds the shapes to a domain in the plane or on a sphere: curves as domain%add_polyline does,
-  !> points as domain%add_fixed_nodes does, names of tags for dimension 1. Curves that cross or do
-  !> not close are found by domain%check; see explain. Local.
-  !>   context       of the domain
+  !> points as domain%add_fixed_nodes does, and names of tags for dimension 1. domain%check finds
+  !> curves that cross or do not close; see explain. Local.
+  !>   context       the context of the domain
   !>   corner_angle  optional: degrees, 0 .. 180, as in domain%add_polyline. Default: 0, every
   !>                 vertex becomes a node
   subroutine geo_add_to_domain(self, context, domain, corner_angle, stat, errmsg)
@@ -122,10 +123,10 @@ contains
     call conclude_geo('add_to_domain', status, stat, errmsg)
   end subroutine
 
-  !> Returns the numbers of what was read. Local.
+  !> Returns the numbers of entities that were read. Local.
   !>   vertices  distinct positions, including those of points
-  !>   boundary  curves, closed or between the vertices where curves meet
-  !>   inner     likewise
+  !>   boundary  boundary curves, which are closed or lie between the vertices where curves meet
+  !>   inner     inner curves, likewise
   !>   points    fixed nodes
   subroutine geo_counts(self, vertices, boundary, inner, points, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -142,11 +143,11 @@ contains
     if (present(points)) points = found(4)
   end subroutine
 
-  !> Returns the projection as texts; '' where the file does not define its coordinate system, or a
-  !> form cannot express it. Local.
+  !> Returns the projection as texts, which are '' if the file does not define its coordinate
+  !> system, or if a form cannot express it. Local.
   !>   name  e.g. 'WGS 84 / UTM zone 34N'
-  !>   unit  of x and y, e.g. 'metre'
-  !>   proj  PROJ string, without what it cannot express
+  !>   unit  the unit of x and y, e.g. 'metre'
+  !>   proj  the PROJ string, which may omit parts that it cannot express
   !>   wkt   WKT 2 (ISO 19162:2019), complete; accepted by read
   !>   prj   WKT 1 as defined by ESRI, the content of .prj files
   subroutine geo_projection(self, name, unit, proj, wkt, prj, stat, errmsg)
@@ -166,9 +167,9 @@ contains
     if (present(prj)) prj = text_of(c_prj)
   end subroutine
 
-  !> Returns the range of the scale, projected length over length on the Earth, along meridians and
-  !> parallels at the vertices (of many, at some thousand of them); d is off by this factor. 1 and 1
-  !> where it is not known. Local.
+  !> Returns the range of the scale, which is projected length over length on the Earth, along
+  !> meridians and parallels at up to some thousand vertices. d deviates by this factor. Both are 1
+  !> if the scale is not known. Local.
   subroutine geo_scale(self, least, greatest, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     real(c_double), intent(out) :: least, greatest
@@ -179,8 +180,8 @@ contains
     call conclude_geo('scale', c_geo_scale(self%c, least, greatest), stat, errmsg)
   end subroutine
 
-  !> Writes the projection beside a file of results, as for shapefiles: for 'out/nodes.vtu' it
-  !> writes or replaces 'out/nodes.prj'. Local; on several ranks call it on one.
+  !> Writes the projection next to a file of results, as for shapefiles: for 'out/nodes.vtu' it
+  !> writes or replaces 'out/nodes.prj'. Local; on several ranks call it on one of them.
   subroutine geo_write_prj(self, results, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: results
@@ -200,7 +201,8 @@ contains
     call converted('to_degrees', c_geo_to_degrees, self, coordinates, stat, errmsg)
   end subroutine
 
-  !> Converts longitude and latitude to x and y, likewise. Local.
+  !> Converts longitude and latitude in degrees to x and y, in place. Values that do not exist
+  !> become infinite. Local.
   !>   coordinates  (2, n), in and out
   subroutine geo_from_degrees(self, coordinates, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
@@ -211,7 +213,7 @@ contains
   end subroutine
 
   !> Returns the message of the last error about a domain of these shapes, with longitude and
-  !> latitude inserted after each point "(x, y)". Any other text is returned as it is. Local.
+  !> latitude after each point "(x, y)". Any other text is returned without changes. Local.
   function geo_explain(self, message) result(text)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: message
@@ -232,7 +234,8 @@ contains
   !> Returns one of the notes as data. Local.
   !>   index  1 .. count of notes
   !>   code   one of PNPBS_GEO_NOTE_...
-  !>   count  how many features, lines or segments it is about; 0: none are counted
+  !>   count  number of features, lines or segments that the note is about; 0 if they are not
+  !>          counted
   subroutine geo_get_note_data(self, index, code, count, stat, errmsg)
     class(pnpbs_geo_shapes), intent(in) :: self
     integer(c_int32_t), intent(in) :: index
@@ -264,13 +267,13 @@ contains
 
   ! ------------------------------------------------------------ grids -------------------------
 
-  !> Reads a part of a grid. Local. Destroy a previously read grid first.
+  !> Opens a part of a grid. Destroy a previously opened grid first. Local.
   !>   path        a file, or anything else that GDAL opens
-  !>   low, high   (2) of the requested part, in the projection of the points, e.g. from
-  !>               domain%bounds
-  !>   variable    optional: its name in a file of several, or the number of a band
-  !>   projection  optional: of the points at which the grid is evaluated, e.g. the wkt of
-  !>               shapes%projection; default: the grid's own system
+  !>   low, high   (2) opposite corners of the requested part, in the projection of the points, e.g.
+  !>               from domain%bounds
+  !>   variable    optional: the name of a variable in a file of several, or the number of a band
+  !>   projection  optional: the projection of the points at which the grid is evaluated, e.g. the
+  !>               wkt of shapes%projection; default: the coordinate system of the grid
   subroutine grid_read(self, path, low, high, variable, projection, stat, errmsg)
     class(pnpbs_geo_grid), intent(inout) :: self
     character(len=*), intent(in) :: path
@@ -297,13 +300,13 @@ contains
     call conclude_grid('destroy', c_geo_grid_destroy(self%c), stat, errmsg)
   end subroutine
 
-  !> Evaluates the grid at points: linear in each direction between the centres of the cells,
-  !> constant beyond the edge. Cells without data take the value of the nearest cell that has some.
-  !> Local.
+  !> Evaluates the grid at points. Values are linear in each direction between the centres of the
+  !> cells, and constant beyond the edge. Cells without data have the value of the nearest cell with
+  !> data. Local.
   !>   coordinates  (2, n)
   !>   values       (n)
-  !>   inside       optional: (n), false where a point lies beyond the edge, to half a cell; true also
-  !>                where no cell around it has data
+  !>   inside       optional: (n), false if a point lies half a cell or more beyond the edge; true
+  !>                also if no cell around it has data
   subroutine grid_values(self, coordinates, values, inside, stat, errmsg)
     class(pnpbs_geo_grid), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -327,11 +330,12 @@ contains
     call conclude_grid('values', status, stat, errmsg, given)
   end subroutine
 
-  !> Computes how steep the grid is at points: the change of its values per unit of length. Local.
+  !> Computes the slope of the grid at points: the change of its values per unit of length. Local.
   !>   coordinates  (2, n)
   !>   slopes       (n)
-  !>   radius       optional: of the sphere along which lengths are, if the points are longitude and
-  !>                latitude in degrees; default: lengths are those of the plane of the points
+  !>   radius       optional: radius of the sphere along which lengths are measured, if the points
+  !>                are longitude and latitude in degrees; default: lengths are those in the plane
+  !>                of the points
   subroutine grid_slopes(self, coordinates, slopes, radius, stat, errmsg)
     class(pnpbs_geo_grid), intent(in) :: self
     real(c_double), intent(in) :: coordinates(:,:)
@@ -353,17 +357,17 @@ contains
     call conclude_grid('slopes', status, stat, errmsg, given)
   end subroutine
 
-  !> Returns the d of models of tides and surges by the depth of the water: so many nodes per length
-  !> of a long wave, and per 2 pi h / |grad h|. Shallower water than least, and land, count as flat
-  !> at that depth. Local.
+  !> Returns the spacing of models of tides and surges by the depth h of the water: the lesser of
+  !> the spacings by the length of waves and by the slope of the bottom. Water shallower than least,
+  !> and land, count as flat at that depth. Local.
   !>   depths  (n), metres, positive down: elevations must be negated
   !>   d       (n)
-  !>   metres  per unit of length: 1000 for kilometres
-  !>   slopes  optional: (n), of the depths, metres per unit of length, as from grid%slopes
-  !>   wave    optional: nodes per wavelength; default: 30; 0: no such rule
-  !>   period  optional: of the wave, seconds; default: 44712, of the tide M2
-  !>   slope   optional: nodes per 2 pi h / |grad h|; default: 0, no such rule
-  !>   least   optional: metres; default: 10
+  !>   metres  metres per unit of length, for example 1000 for kilometres
+  !>   slopes  optional: (n), slopes of the depths, metres per unit of length, as from grid%slopes
+  !>   wave    optional: number of nodes per length of a long wave; default: 30; 0 for no such bound
+  !>   period  optional: period of the wave in seconds; default: 44712, that of the tide M2
+  !>   slope   optional: number of nodes per 2 pi h / |grad h|; default: 0, for no such bound
+  !>   least   optional: least depth in metres; default: 10
   subroutine pnpbs_geo_depth_spacing(depths, d, metres, slopes, wave, period, slope, least, stat, &
                                      errmsg)
     real(c_double), intent(in) :: depths(:)
@@ -424,7 +428,7 @@ contains
     call conclude('grid%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
-  ! Converts coordinates by one of the C functions between degrees and x, y.
+  ! Converts points in place by a C function between degrees and x, y.
   subroutine converted(called, convert, self, coordinates, stat, errmsg)
     character(len=*), intent(in) :: called
     procedure(c_geo_to_degrees) :: convert
@@ -450,7 +454,7 @@ contains
     call conclude('shapes%' // called, status, stat, errmsg, given, pnpbs_geo_last_error())
   end subroutine
 
-  ! Returns a text for C, which is empty if the argument is absent.
+  ! Returns the text of an optional argument; an absent one is '' in C.
   function given_text(text) result(c)
     character(len=*), intent(in), optional :: text
     character(kind=c_char, len=:), allocatable :: c

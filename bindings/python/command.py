@@ -1,6 +1,7 @@
 #!python
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts the command pnpbs of this environment's package, without loading the package."""
+"""Starts the command `pnpbs` that is part of the package in this environment, without importing the
+package."""
 import importlib.util
 import os
 import sys

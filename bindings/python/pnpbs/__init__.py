@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
-returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and
-Delaunay stars, identical for any number of threads and MPI ranks.
+"""Parallel node placement by bubble simulation. Given a domain and a spacing d(x), the library
+places nodes whose mutual distances follow d, and computes their adjacency lists, boundary tags and
+Delaunay stars. Results are identical for any number of threads and MPI ranks.
 
     import pnpbs
 
@@ -13,9 +13,17 @@ Delaunay stars, identical for any number of threads and MPI ranks.
         placement.run()
         points = placement.nodes().points
 
-Points are the rows of (n, 2) arrays, in space and on a sphere of (n, 3) ones; indices, ids and ranks
-count from 0. "Collective" functions must be called by all ranks of the context in the same order,
-and raise on all of them or on none; "local" ones need not. One thread at a time may use a context."""
+Conventions:
+
+- Points are the rows of arrays of shape (n, dim), where dim is 2 in the plane and 3 in space and on
+  a sphere. Lengths, spacings and coordinates have one common unit, which the caller chooses.
+- Indices, ids and ranks count from 0.
+- "Collective" functions must be called by all ranks of the context in the same order. If one rank
+  raises an exception, all ranks raise one. "Local" functions may be called by any rank.
+- Arrays that are passed are copied or only read during the call. Arrays that are returned belong to
+  the caller.
+- Errors of the library raise `PNPBSError`. Arrays of a wrong shape or type raise `ValueError`.
+- One thread at a time may use a context."""
 
 from ._library import library_path
 from ._warnings import (DomainWarning, ElementsWarning, PNPBSWarning, SpacingWarning, WarningCode,

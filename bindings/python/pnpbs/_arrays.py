@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Conversion of arguments for the library. Arrays of the right type and order are not copied."""
+"""Conversion of arguments to arrays of the library. Arrays of the right type and memory order are
+not copied."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ from ._types import Doubles, Ids, Int32s, Scalar
 
 
 def as_points(points: ArrayLike, dim: int, what: str) -> Doubles:
-    """Returns (n, dim) numbers, a row for each point."""
+    """Converts to float64 points of shape (n, dim). Raises ValueError for another shape; `what`
+    names the argument."""
     array = np.ascontiguousarray(points, dtype=np.float64)
     if array.size == 0:
         return array.reshape(0, dim)
@@ -22,11 +24,13 @@ def as_points(points: ArrayLike, dim: int, what: str) -> Doubles:
 
 
 def as_point(point: ArrayLike, dim: int, what: str) -> Doubles:
+    """Converts to one float64 point of shape (dim,). Raises ValueError for another shape."""
     return _of_shape(np.ascontiguousarray(point, dtype=np.float64), (dim,), what)
 
 
 def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
-    """Returns (m, columns) indices from 0."""
+    """Converts to int64 indices of shape (m, columns). Raises ValueError for another shape or
+    type."""
     array = np.ascontiguousarray(_integers(indices, what), dtype=np.int64)
     if array.size == 0:
         return array.reshape(0, columns)
@@ -36,7 +40,9 @@ def as_indices(indices: ArrayLike, columns: int, what: str) -> Ids:
 
 
 def as_tags(tags: Optional[ArrayLike], n: int, what: str) -> Optional[Int32s]:
-    """Returns None for the library's default, one tag for all, or one for each."""
+    """Converts to n int32 tags. A single number becomes the tag of all, and None, which stands for
+    the default of the library, stays None. Raises ValueError for another shape or type, or for
+    numbers beyond 32 bits."""
     if tags is None:
         return None
     given = _integers(tags, what)

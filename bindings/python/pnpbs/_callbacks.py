@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Python functions as the library's callbacks. No exception may pass through the library: it is
-stored in the context, the callback returns nonzero, and `Context._check` raises it after the call
-returns. The caller that passes a callback keeps it alive."""
+"""Adapters that make Python functions callbacks of the library. Exceptions must not pass through
+the library. An adapter stores the exception in the context and returns nonzero, and
+`Context._check` raises it after the call has returned. The caller that passes a callback must keep
+it alive."""
 
 from __future__ import annotations
 
@@ -17,27 +18,31 @@ from ._types import ArrayFunction, Doubles, Monitor
 if TYPE_CHECKING:
     from .context import Context
 
-    # The library passes arrays of doubles as this type.
+    # The address of doubles of the library.
     _Address = ctypes._Pointer[ctypes.c_double]
 
 
 def _guarded(context: Context, work: Callable[[], object]) -> int:
-    """Calls `work()`, unless an exception is pending."""
+    """Calls `work()` unless an exception is pending. Returns 1 if an exception is pending or
+    raised, or if `work()` returns a true value; otherwise 0."""
     if context._raised is not None:
         return 1
     try:
         return 1 if work() else 0
-    except BaseException as error:  # includes KeyboardInterrupt
+    except BaseException as error:  # also KeyboardInterrupt
         context._raised = error
         return 1
 
 
-# The argument is copied, so that a function that keeps or changes it does no harm.
 def _copied(address: _Address, shape: Tuple[int, ...]) -> Doubles:
+    """Returns a copy of the array of the library. A function that keeps or changes its argument
+    thus has no effect on the library."""
     return np.ctypeslib.as_array(address, shape=shape).copy()
 
 
 def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: str) -> None:
+    """Writes the result of a function into the array of the library. Raises ValueError for another
+    shape."""
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"the {what} function returned an array of shape {array.shape}; {shape} "
@@ -46,7 +51,8 @@ def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: s
 
 
 def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
-    """Returns a callback that stores f(points), a value at each of n points (n, dim)."""
+    """Makes a callback of f(points), which receives points of shape (n, dim) and returns n
+    values."""
 
     def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
         def work() -> None:
@@ -59,18 +65,23 @@ def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> An
 
 
 def spacing_callback(f: ArrayFunction, context: Context) -> Any:
+    """Makes a spacing callback of d(points)."""
     return _at_points("pnpbs_spacing_fn", "spacing", f, context)
 
 
 def no_spacing() -> Any:
+    """Returns the null pointer for an optional spacing callback."""
     return CALLBACKS["pnpbs_spacing_fn"]()
 
 
 def level_set_callback(f: ArrayFunction, context: Context) -> Any:
+    """Makes a level set callback of f(points)."""
     return _at_points("pnpbs_level_set_fn", "level set", f, context)
 
 
 def curve_callback(f: ArrayFunction, context: Context) -> Any:
+    """Makes a curve callback of f(t), which receives n parameters and returns points of shape (n,
+    dim)."""
     def call(n: int, dim: int, t: _Address, coordinates: _Address, _user: Any) -> int:
         def work() -> None:
             if n > 0:
@@ -82,7 +93,8 @@ def curve_callback(f: ArrayFunction, context: Context) -> Any:
 
 
 def monitor_callback(f: Monitor, context: Context) -> Any:
-    # Only True stops the run, as a monitor that ends with a print returns None.
+    """Makes a progress callback of f(fraction, step, nodes, max_speed). Only True stops the run,
+    because a monitor without a return statement returns None."""
     def call(fraction: float, step: int, nodes: int, max_speed: float, _user: Any) -> int:
         return _guarded(context, lambda: f(fraction, step, nodes, max_speed) is True)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The unmodified C interface: `library()` has one function for each function of `pnpbs.h`, with the
-same name and arguments, documented in that header. Nothing is converted beyond what the types
-require. A test compares the declarations, the types of callbacks and the constants, `Status` among
-them, with the header."""
+"""The unmodified C interface. `library()` returns an object with one function for each function of
+`pnpbs.h`, with the same name and arguments, as documented in that header. The only conversions are
+those that the types require. A test compares the declarations, callback types and constants, also
+those of `Status`, with the header."""
 
 from __future__ import annotations
 
@@ -278,7 +278,8 @@ pnpbs_status pnpbs_discard_unfinished_files(void);
 
 
 class _Array:
-    """An array argument: a NumPy array, `ctypes.byref` of a number, or None."""
+    """The type of an array argument: a NumPy array in C order, `ctypes.byref` of a number, or
+    None."""
 
     dtype: Optional[np.dtype[Any]] = None
 
@@ -296,7 +297,8 @@ def _array_of(dtype: str) -> Type[_Array]:
 
 
 class _Integer:
-    """An integer argument. ctypes alone would drop the bits that do not fit."""
+    """The type of an integer argument. It raises OverflowError for numbers that do not fit; ctypes
+    alone truncates them."""
 
     bits: int
     name: str
@@ -313,7 +315,7 @@ _BITS = {"int32_t": 32, "int64_t": 64}
 
 
 def _argument(c_type: str, name: str) -> Any:
-    """Returns the converter for an argument of a function, as an element of `function.argtypes`."""
+    """Returns the type of an argument for `function.argtypes`."""
     if c_type in _BITS:
         return type(f"_{c_type}_{name}", (_Integer,), {"bits": _BITS[c_type], "name": name})
     return ctypes_of(c_type)
@@ -326,18 +328,18 @@ _ARRAYS = {"int8_t": _array_of("int8"), "int32_t": _array_of("int32"),
 
 
 def ctypes_of(c_type: str) -> Any:
-    """Returns the ctypes type for a C type, as written in the header."""
+    """Returns the ctypes type of a C type as written in the header."""
     if c_type in _NUMBERS:
         return _NUMBERS[c_type]
     if c_type == "const char *":
         return ctypes.c_char_p
     pointee = c_type.removeprefix("const ").removesuffix(" *")
-    # The rest are handles, callbacks, and arguments that take only `ctypes.byref`.
+    # Handles, callbacks, and outputs that are passed by `ctypes.byref`.
     return _ARRAYS.get(pointee, ctypes.c_void_p)
 
 
 def declarations(text: str) -> Dict[str, Tuple[str, Tuple[Tuple[str, str], ...]]]:
-    """Parses declarations "result name(type argument, ...);" into {name: (result, ((type,
+    """Parses declarations "result name(type argument, ...);". Returns {name: (result, ((type,
     argument), ...))}."""
     found = {}
     for declaration in text.split(";"):
@@ -351,7 +353,8 @@ def declarations(text: str) -> Dict[str, Tuple[str, Tuple[Tuple[str, str], ...]]
 
 
 def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
-    """Returns an opened library whose functions take and return what `text` declares."""
+    """Declares results and arguments of the functions in `text` for an opened library, and returns
+    the library."""
     for name, (result, arguments) in declarations(text).items():
         function = getattr(opened, name)
         function.restype = ctypes_of(result)
@@ -359,7 +362,7 @@ def declared(opened: ctypes.CDLL, text: str) -> ctypes.CDLL:
     return opened
 
 
-# The types of the callbacks. Python's closures do not need the last argument, `user`.
+# Types of callbacks. The last argument is `user`, which closures of Python do not need.
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
 CALLBACKS: Dict[str, Any] = {
     "pnpbs_curve_fn": ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int32, _DOUBLES,
@@ -376,7 +379,7 @@ _opened: Optional[ctypes.CDLL] = None
 
 
 def library() -> ctypes.CDLL:
-    """Returns the library, opened at first use, with its functions declared."""
+    """Returns the library with declared functions. The first call opens it."""
     global _opened
     if _opened is None:
         _opened = declared(open_library(), DECLARATIONS)

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Selects the library for this processor if there are several.
-
-If glibc's loader searches for a library, it takes the best one in folders for the levels of x86-64
-processors (`glibc-hwcaps`). It does not do this if it gets a path, as it does from ctypes.
+"""Selection of the library for this processor, if there are several. When the loader of glibc
+searches its folders for a library, it prefers the subfolders of `glibc-hwcaps` for newer x86-64
+processors. It does not do so for a path, as ctypes passes it, so this module repeats the selection.
 """
 
 from __future__ import annotations
@@ -13,16 +12,16 @@ from typing import Collection
 _V2 = {"cx16", "lahf_lm", "popcnt", "pni", "sse4_1", "sse4_2", "ssse3"}
 _V3 = _V2 | {"abm", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "xsave"}
 _V4 = _V3 | {"avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"}
-# The features of each level are those of the x86-64 psABI by the names that Linux uses. The best
-# level is first.
+# The levels of the x86-64 psABI, in Linux's names of these features, the best one first.
 _LEVELS = {"x86-64-v4": _V4, "x86-64-v3": _V3, "x86-64-v2": _V2}
 _FOLDER = "glibc-hwcaps"
-# The name of the library for the loader.
+# The name with which programs are linked.
 _SONAME = "libpnpbs.so.0"
 
 
 def processor_flags(cpuinfo: pathlib.Path = pathlib.Path("/proc/cpuinfo")) -> set[str]:
-    """Returns the features of the first processor, or none if the system does not report them."""
+    """Returns the features of the first processor, or an empty set if the system does not report
+    them."""
     try:
         lines = cpuinfo.read_text().splitlines()
     except OSError:
@@ -31,15 +30,15 @@ def processor_flags(cpuinfo: pathlib.Path = pathlib.Path("/proc/cpuinfo")) -> se
 
 
 def common_folder(library: pathlib.Path) -> pathlib.Path:
-    """Returns the folder of the library for all processors. The libraries for other levels are in
-    subfolders of it."""
+    """Returns the folder of the library for all processors. The other libraries of the package are
+    in the same folder."""
     folder = library.parent
     return folder.parent.parent if folder.parent.name == _FOLDER else folder
 
 
 def best_level(library: pathlib.Path, flags: Collection[str]) -> pathlib.Path:
-    """Returns the best library in the subfolders that a processor with these features can run, or
-    this one."""
+    """Returns the best library next to this one that a processor with these features can run, or
+    `library` if there is none."""
     for level, needed in _LEVELS.items():
         other = library.parent / _FOLDER / level / _SONAME
         if needed.issubset(flags) and other.is_file():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Location of the shared library."""
+"""Search for the shared library, and its loading."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from typing import Iterator
 
 from ._levels import best_level, processor_flags
 
-# The version of the interface that this package is written for. While the major version is 0, a new
-# minor version may change it.
+# The interface version that this package requires. While the major version is 0, a new minor
+# version may change the interface.
 INTERFACE = (0, 2)
 
 _HERE = pathlib.Path(__file__).resolve().parent
 
 
 def _candidates() -> Iterator[str]:
+    """Yields paths or names of the library in order of preference."""
     if os.environ.get("PNPBS_LIBRARY"):
         yield os.environ["PNPBS_LIBRARY"]
         return
     suffix = "dylib" if sys.platform == "darwin" else "so"
-    # In a wheel the library lies in the package. An installed package is in
-    # <prefix>/share/pnpbs/python.
+    # A wheel contains the library; an installed package lies in <prefix>/share/pnpbs/python.
     prefix = _HERE.parents[3]
     folders = [_HERE / "lib", prefix / "lib", prefix / "lib64",
                prefix / "lib" / f"{os.uname().machine}-linux-gnu"]
@@ -33,23 +33,25 @@ def _candidates() -> Iterator[str]:
         for path in sorted(folder.glob(f"libpnpbs*.{suffix}*")):
             if not path.name.startswith("libpnpbs_"):
                 yield str(best_level(path, processor_flags()))
-    # This is the name that programs are linked with. The name without a number exists only in
-    # installations for development.
+    # The name without a number exists only with development files, so the linked name is used.
     yield "libpnpbs.so.0" if suffix == "so" else "libpnpbs.dylib"
 
 
 def library_path() -> str:
-    """Returns the path or name of the library that is or would be opened: the environment variable
-    `PNPBS_LIBRARY`, or the library that this package was installed with (the one for this processor, if
-    there are several), or the one that the system finds as `libpnpbs`."""
+    """Returns the path or name of the library that is or will be opened. This is the value of the
+    environment variable `PNPBS_LIBRARY` if it is set. Otherwise it is the library that was
+    installed with this package, in the variant for this processor if there are several, or the
+    library that the system finds as `libpnpbs`. Local."""
     return next(_candidates())
 
 
 @contextlib.contextmanager
 def _waiting_threads_sleep() -> Iterator[None]:
-    """Sets the wait policy of threads in the block. GCC's OpenMP reads it when it is loaded. By
-    default threads spin for a millisecond, so that a run takes many times as long on a busy
-    machine. The environment that child processes inherit does not change."""
+    """Makes waiting OpenMP threads of GCC sleep early, unless the environment defines how they
+    wait. GCC's OpenMP reads this setting when it is loaded. By default threads spin for a
+    millisecond, which slows a run down several times if other programs use the cores. The
+    environment is restored at the end of the block, so child processes do not inherit the setting.
+    """
     if "OMP_WAIT_POLICY" in os.environ or "GOMP_SPINCOUNT" in os.environ:
         yield
         return
@@ -61,6 +63,7 @@ def _waiting_threads_sleep() -> Iterator[None]:
 
 
 def open_library() -> ctypes.CDLL:
+    """Opens the library. Raises ImportError if it is not found or has another interface version."""
     path = library_path()
     try:
         with _waiting_threads_sleep():
@@ -70,7 +73,7 @@ def open_library() -> ctypes.CDLL:
                           "PNPBS_LIBRARY to its path") from error
     major, minor = ctypes.c_int32(), ctypes.c_int32()
     opened.pnpbs_version(ctypes.byref(major), ctypes.byref(minor), None)
-    # A library with another interface would lead to a crash.
+    # Calls with the declarations of another interface version can crash.
     if (major.value, minor.value) != INTERFACE:
         raise ImportError(f"{path} is PNPBS {major.value}.{minor.value}, but this package is for "
                           f"{INTERFACE[0]}.{INTERFACE[1]}; use the package of the same version")

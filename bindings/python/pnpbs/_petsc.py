@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts distributed meshes to PETSc's DMPlex with petsc4py.
-
-petsc4py has no call for distributed cells, so the plex is assembled in the same steps as in PETSc's
-own call: first the cells of a rank, then the vertices that ranks share, then the faces."""
+"""Conversion of distributed meshes to a DMPlex of PETSc through petsc4py. petsc4py has no function
+for cells that are distributed already, so this module repeats the steps of PETSc's own function: it
+creates the cells and vertices of a rank, the star forest of shared vertices, and then the faces."""
 
 from __future__ import annotations
 
@@ -17,8 +16,7 @@ from .mesh_arrays import MeshArrays
 
 
 def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
-    """Returns the plex, and the star forest from the nodes that ranks own to vertices. Collective.
-    """
+    """Returns the plex, and the star forest from owned nodes to vertices. Collective."""
     petsc = importlib.import_module("petsc4py.PETSc")
     corners = mesh.elements.shape[1]
     elements = mesh.elements[:mesh.owned_elements]
@@ -28,7 +26,7 @@ def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
     nodes = _star_forest(petsc, comm, mesh.owned_nodes, np.arange(len(at_vertices)),
                          _owners_and_indices(mesh, comm, at_vertices))
     cells = vertices[elements]
-    if corners == 4:  # the orientation of PETSc's tetrahedra is reversed
+    if corners == 4:  # PETSc orients tetrahedra in the opposite direction
         cells = cells[:, [1, 0, 2, 3]]
     plex = _cells_and_vertices(petsc, comm, cells, len(at_vertices))
     _set_coordinates(petsc, plex, mesh.coordinates[at_vertices])
@@ -41,7 +39,7 @@ def plex_of(mesh: MeshArrays, comm: Any) -> Tuple[Any, Any]:
 
 
 def _cells_and_vertices(petsc: Any, comm: Any, cells: NDArray[Any], vertices: int) -> Any:
-    """Returns a plex of cells and vertices only. Vertices are numbered after the cells."""
+    """Creates a plex of cells and vertices without faces. Vertices are numbered after the cells."""
     n, corners = cells.shape
     plex = petsc.DMPlex().create(comm=comm)
     plex.setDimension(corners - 1)
@@ -57,7 +55,7 @@ def _cells_and_vertices(petsc: Any, comm: Any, cells: NDArray[Any], vertices: in
 
 
 def _set_coordinates(petsc: Any, plex: Any, coordinates: NDArray[np.float64]) -> None:
-    """Sets the coordinates of the vertices, (vertices, dim)."""
+    """Sets the coordinates of the vertices, an array of shape (vertices, dim)."""
     dim = coordinates.shape[1]
     first, end = plex.getDepthStratum(0)
     plex.setCoordinateDim(dim)
@@ -77,27 +75,28 @@ def _set_coordinates(petsc: Any, plex: Any, coordinates: NDArray[np.float64]) ->
 
 def _star_forest(petsc: Any, comm: Any, roots: int, leaves: NDArray[Any],
                  remote: NDArray[Any]) -> Any:
-    """Returns a star forest. `remote` has the rank and the index of the root of each leaf."""
+    """Creates a star forest. Each row of `remote` is the rank and the index of the root of a
+    leaf."""
     forest = petsc.SF().create(comm=comm)
     forest.setGraph(roots, leaves.astype(petsc.IntType), remote.astype(petsc.IntType))
     return forest
 
 
 def _owners_and_indices(mesh: MeshArrays, comm: Any, nodes: Int32s) -> NDArray[np.int64]:
-    """Returns the rank that owns each node, and the node's index there."""
+    """Returns, for each node, the rank that owns it and its index on that rank. Collective."""
     first = np.array(comm.allgather(mesh.first_node))
     owners = mesh.owners[nodes]
     return np.stack([owners, mesh.numbers[nodes] - first[owners]], axis=1)
 
 
 def _shared_vertices(petsc: Any, comm: Any, nodes: Any, owned_nodes: int, cells: int) -> Any:
-    """Returns the star forest of the points of the plex that are shared with other ranks: the
-    vertices that another rank has too and owns. A vertex belongs to the last rank that has it."""
+    """Returns the star forest of those vertices of the plex that another rank owns. A vertex
+    belongs to the highest rank that has it. Collective."""
     mpi = importlib.import_module("mpi4py.MPI")
     _, leaves, _ = nodes.getGraph()
 
     def largest(at_vertices: NDArray[Any]) -> NDArray[Any]:
-        """Returns the maximum over all ranks at each vertex."""
+        """Returns, for each vertex, the largest value of all ranks that have it. Collective."""
         at_vertices = at_vertices.astype(np.int32)
         at_nodes = np.full(owned_nodes, -1, np.int32)
         nodes.reduceBegin(mpi.INT, at_vertices, at_nodes, mpi.MAX)
@@ -127,7 +126,8 @@ def _label_facets(petsc: Any, plex: Any, mesh: MeshArrays) -> None:
 
 
 def _faces(plex: Any, cells: Int32s, opposite: NDArray[Any], corners: int) -> NDArray[Any]:
-    """Returns the face of each cell opposite this corner, in PETSc's order of faces in a cell."""
+    """Returns the face of each cell that does not contain the corner `opposite`. PETSc's order of
+    faces in a cell determines its index."""
     if corners == 3:
         places = (opposite + 1) % 3
     else:
@@ -136,6 +136,7 @@ def _faces(plex: Any, cells: Int32s, opposite: NDArray[Any], corners: int) -> ND
 
 
 def _label(petsc: Any, plex: Any, name: str, points: NDArray[Any], values: Int32s) -> None:
+    """Creates a label with these values at points of the plex."""
     plex.createLabel(name)
     label = plex.getLabel(name)
     for value in np.unique(values):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quick plots of nodes and meshes: by Matplotlib in the plane, and by PyVista or Matplotlib in
-space. Items with a tag have the colour of the tag."""
+"""Pictures of nodes and meshes, with Matplotlib in the plane and with PyVista in space, or
+Matplotlib if PyVista is not installed. Each tag has a colour of its own."""
 
 from __future__ import annotations
 
@@ -20,11 +20,13 @@ _GREY = "#999999"
 # The first ten colours of Matplotlib.
 _COLOURS = ("#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f",
             "#bcbd22", "#17becf")
-# More entries would cover the picture.
+# A longer legend covers the picture.
 _MAX_LEGEND = 12
 
 
 def plot_nodes(points: Doubles, tags: Int32s, ax: Any) -> Any:
+    """Draws nodes coloured by tag on `ax`, or on a new canvas if it is None, and returns the
+    canvas."""
     ax = _canvas(points.shape[1], ax)
     for label, colour, here in _by_tag(tags):
         if _is_plotter(ax):
@@ -36,8 +38,9 @@ def plot_nodes(points: Doubles, tags: Int32s, ax: Any) -> Any:
 
 
 def plot_mesh(mesh: MeshArrays, facets_here: NDArray[np.bool_], ax: Any) -> Any:
-    """Of what this rank owns: triangles and facets in the plane, the triangles on surfaces in
-    space."""
+    """Draws what this rank owns of a mesh on `ax`, or on a new canvas if it is None, and returns
+    the canvas. In the plane these are triangles and facets. In space these are the facets of
+    bodies, or the triangles of surfaces alone. `facets_here` marks the owned facets."""
     elements = mesh.elements[:mesh.owned_elements]
     facets, tags = mesh.facets[facets_here], mesh.facet_tags[facets_here]
     ax = _canvas(mesh.dim, ax)
@@ -73,7 +76,8 @@ def _add_triangles(ax: Any, points: Doubles, corners: Int32s, tags: Int32s) -> N
 
 
 def _by_tag(tags: Int32s) -> Iterator[Tuple[str, str, NDArray[np.bool_]]]:
-    """Yields label, colour and mask of each tag. 0 means no tag."""
+    """Yields label, colour and mask of each tag. The tag 0, which means no tag, comes last and is
+    grey."""
     numbers: List[int] = np.unique(tags).tolist()
     for k, tag in enumerate(sorted(numbers, key=lambda tag: (tag == 0, tag))):
         yield (f"tag {tag}" if tag else "no tag", _COLOURS[k % len(_COLOURS)] if tag else _GREY,
@@ -81,11 +85,12 @@ def _by_tag(tags: Int32s) -> Iterator[Tuple[str, str, NDArray[np.bool_]]]:
 
 
 def _is_plotter(ax: Any) -> bool:
+    """Returns whether the canvas is a plotter of PyVista."""
     return hasattr(ax, "add_mesh")
 
 
 def _canvas(dim: int, ax: Any) -> Any:
-    """Returns the given canvas or a new one."""
+    """Returns `ax`, or a new canvas if it is None."""
     if ax is not None:
         return ax
     if dim == 3 and importlib.util.find_spec("pyvista"):
@@ -95,7 +100,7 @@ def _canvas(dim: int, ax: Any) -> Any:
 
 
 def _finished(ax: Any, points: Doubles, tags: Int32s) -> Any:
-    """Returns the canvas with equal scales, and with a legend if it is short."""
+    """Sets equal scales, adds a legend if it is short, and returns the canvas."""
     has_legend = 0 < len(np.unique(tags)) <= _MAX_LEGEND
     if _is_plotter(ax):
         if has_legend:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A progress bar for a run: that of tqdm, in notebooks its own kind, or a line of text without
-tqdm."""
+"""A progress bar for runs. It is that of tqdm, also in notebooks, or a line of text if tqdm is not
+installed."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ _WIDTH = 40
 
 
 class ProgressBar:
-    """A monitor that shows the fraction and the number of nodes. The bar exists from the `with`
-    statement to the end of its block."""
+    """A monitor that shows the completed fraction and the number of nodes. Use it in a `with`
+    statement; the bar exists until the end of the block."""
 
     def __enter__(self) -> ProgressBar:
         try:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ctrl-C during a call of the library. Python handles a signal between any two instructions of a
-callback, even before a `try` of this package is entered, and ctypes drops what is raised there."""
+"""Handling of Ctrl-C during a call of the library. Python may handle a signal between any two
+instructions of a callback, even before the callback enters a `try` statement, and ctypes discards
+exceptions that are raised there."""
 
 from __future__ import annotations
 
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 
 @contextlib.contextmanager
 def signals_kept_in(context: Context) -> Iterator[None]:
-    """Stores what the program's handler of SIGINT raises in the block in the context, as for
-    exceptions of callbacks: the next callback ends the call. Nothing changes in threads other than
-    the main one, where Python handles no signals, or if no Python handler is set."""
+    """Stores exceptions that the SIGINT handler raises inside the block in the context, like those
+    of callbacks. The next callback then ends the call. The function has no effect in threads other
+    than the main one, in which Python handles no signals, and if no Python handler is set."""
     is_main = threading.current_thread() is threading.main_thread()
     handler = signal.getsignal(signal.SIGINT) if is_main else None
     if not callable(handler):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types that the package's functions take and return, for type checkers."""
+"""Types of arguments and results, for type checkers."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ Ids = NDArray[np.int64]
 Int32s = NDArray[np.int32]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
-# f(points) returns a value at each of n points, (n, dim). Curves f(t) return n points, (n, 2).
+# f(points) receives (n, dim) points and returns n values; a curve f(t) receives n parameters and
+# returns (n, 2) points.
 ArrayFunction = Callable[[Doubles], ArrayLike]
-# The arguments are fraction, step, nodes, max_speed. Only True stops the run.
+# f(fraction, step, nodes, max_speed); only the result True stops the run.
 Monitor = Callable[[float, int, int, float], object]
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
@@ -28,4 +29,4 @@ class FortranComm(Protocol):
     """A communicator of mpi4py."""
 
     def py2f(self) -> int:
-        """Returns its Fortran handle."""
+        """Returns the Fortran handle of the communicator."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Warnings of the library: their codes, and the classes of Python's warnings."""
+"""Warnings of the library: their codes, their data, and the classes of Python's warnings."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ._types import Doubles
 
 
 class WarningCode(enum.IntEnum):
-    """The codes of the header, which says what each means, as do the counts and values of
-    `WarningData`. The hundreds are the kinds: the domain, the spacing, the elements, and the
-    options and the run."""
+    """Codes of warnings, as documented in the header `pnpbs.h`, which also defines the counts and
+    values of `WarningData`. The hundreds digit is the kind: 1 the domain, 2 the spacing, 3 the
+    elements, 4 the options and the run. Codes that this package does not have become `UNKNOWN`."""
 
     UNKNOWN = 0
     LEFT_OUT_OUTSIDE = 101
@@ -47,22 +47,31 @@ class WarningCode(enum.IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> WarningCode:
-        return cls.UNKNOWN  # the code is from a newer library
+        return cls.UNKNOWN  # code of a newer library
 
     def __str__(self) -> str:
         return self.name
 
 
 class WarningData(NamedTuple):
+    """A warning as data.
+
+    - `code`: the `WarningCode`.
+    - `text`: the message.
+    - `count`: number of nodes, edges, triangles or points that the warning is about; 0 if it is not
+      known.
+    - `value`: a number that the warning is about, or None.
+    - `point`: the first point that the message names, or None."""
+
     code: WarningCode
     text: str
-    count: int  # type: ignore[assignment]  # not what tuple.count is
+    count: int  # type: ignore[assignment]  # hides tuple.count
     value: Optional[float]
     point: Optional[Doubles]
 
 
 class PNPBSWarning(UserWarning):
-    """A warning of the library. `data` is its `WarningData`."""
+    """A warning of the library. The attribute `data` is its `WarningData`."""
 
     def __init__(self, data: WarningData) -> None:
         super().__init__(data.text)
@@ -70,19 +79,22 @@ class PNPBSWarning(UserWarning):
 
 
 class DomainWarning(PNPBSWarning):
-    """The domain is not quite what was given, such as where curves outside of it are left out."""
+    """A warning that the domain differs from the input, for example because curves outside the
+    domain are left out."""
 
 
 class SpacingWarning(PNPBSWarning):
-    """The spacing cannot be followed, or is not followed."""
+    """A warning that nodes cannot follow the spacing, or do not follow it."""
 
 
 class ElementsWarning(PNPBSWarning):
-    """Triangles or tetrahedra do not fill the domain, or some of them are of little use."""
+    """A warning that triangles or tetrahedra do not fill the domain, or that some of them have a
+    poor quality."""
 
 
 _CLASSES = {1: DomainWarning, 2: SpacingWarning, 3: ElementsWarning}
 
 
 def warning_class(code: int) -> Type[PNPBSWarning]:
+    """Returns the class of warnings with this code."""
     return _CLASSES.get(code // 100, PNPBSWarning)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contexts: one process, or the ranks of a communicator."""
+"""Contexts: a single process, or the ranks of a communicator."""
 
 from __future__ import annotations
 
@@ -13,41 +13,42 @@ from ._interface import library
 from ._types import FortranComm, OptionValue
 from .errors import PNPBSError, Status, check_without_context, error_of
 
-# The open contexts on communicators of mpi4py, in the order of their creation, which is the same on
-# all ranks. mpi4py ends MPI after Python's own exit handlers.
+# Open contexts on communicators of mpi4py in the order of their creation, which is the same on all
+# ranks. mpi4py finalises MPI after the exit handlers of Python.
 _on_mpi4py: List[Context] = []
 
 _Self = TypeVar("_Self", bound="Handle")
 
 
 class Handle:
-    """Common base of contexts, domains and placements: a handle of the library that is closed once,
-    by `close` or at the end of a `with` block."""
+    """The common base class of contexts, domains, placements and other objects of the library. A
+    handle is closed once, by `close` or at the end of a `with` block."""
 
     def __init__(self) -> None:
         self._handle: Optional[int] = None
 
     @property
     def is_open(self) -> bool:
-        """Whether the object has not been closed."""
+        """Whether the object has not been closed. Local."""
         return self._handle is not None
 
     def _live(self) -> int:
-        """Returns the handle for the library: never the handle of a closed object."""
+        """Returns the handle for the library. Raises `Status.ERROR_HANDLE` if the object is
+        closed."""
         if self._handle is None:
             raise PNPBSError(Status.ERROR_HANDLE, f"this {type(self).__name__} has been closed")
         return self._handle
 
     def _destroy(self, function: Callable[..., int]) -> int:
-        """Destroys the handle. Keeps it if the library returns an error, for example inside a
-        callback."""
+        """Destroys the handle and returns the status. Keeps the handle if the library refuses, as
+        in a callback."""
         handle = ctypes.c_void_p(self._handle)
         code = function(ctypes.byref(handle))
         self._handle = handle.value
         return code
 
     def close(self) -> None:
-        """Releases the resources of the library. Closing twice is allowed."""
+        """Releases the resources of the library. Repeated calls have no effect."""
         raise NotImplementedError
 
     def __enter__(self: _Self) -> _Self:
@@ -59,27 +60,29 @@ class Handle:
 
 
 class Context(Handle):
-    """The context on which domains and placements are made.
+    """A context, on which domains and placements are created.
 
-    `Context()` is for one process and calls no MPI function. `Context(comm)` with a communicator of
-    mpi4py, or with the Fortran handle of any communicator (`comm.py2f()`), uses a duplicate of that
-    communicator and is created collectively; `library` is the result of `MPI_Get_library_version`,
-    if the library should compare it with its own MPI. Other keywords are options, the defaults of
-    placements made on it.
+    - `comm`: None for a single process; no MPI function is called then. Otherwise a communicator of
+      mpi4py, or the Fortran handle of a communicator (`comm.py2f()`). The context uses a duplicate
+      of the communicator, and its creation is collective.
+    - `library`: the result of `MPI_Get_library_version`, for a Fortran handle. If it is given, the
+      library compares it with its own MPI.
+    - `**options`: options by name, which are the defaults of placements on this context.
 
-    `close` it, or use it in a `with` block, when it is no longer needed: this is collective, so no
-    garbage collector does it. Contexts on communicators of mpi4py are closed when Python ends, at
-    the latest; those with a raw handle must be closed before MPI is finalised. If a `with` block
-    ends by an exception, a context on several ranks is not closed, because the others might never
-    close theirs."""
+    Raises `Status.ERROR_MPI` if MPI is not running or is another MPI library, and
+    `Status.ERROR_UNSUPPORTED` for a communicator in a build without MPI.
+
+    Call `close`, or use a `with` block. Closing is collective, so the garbage collector does not do
+    it. Contexts on communicators of mpi4py are closed when Python ends. Contexts with a Fortran
+    handle must be closed before MPI is finalised. If a `with` block ends by an exception, a context
+    on several ranks is not closed, because the other ranks may not close theirs."""
 
     def __init__(self, comm: Optional[Union[int, FortranComm]] = None,
                  library: Optional[str] = None, **options: OptionValue) -> None:
         super().__init__()
         self._on_ranks = comm is not None
-        self._raised: Optional[BaseException] = None  # by a callback during the current call
-        # The open domains and placements. They are kept here because the library holds their
-        # callbacks.
+        self._raised: Optional[BaseException] = None  # exception of a callback, until its call ends
+        # Open domains and placements. The library holds addresses of their callbacks.
         self._children: List[Handle] = []
         self._handle = _created(comm, library)
         if hasattr(comm, "py2f"):
@@ -87,16 +90,19 @@ class Context(Handle):
         self.set(**options)
 
     def set(self, **options: OptionValue) -> Context:
-        """Sets options by name, for placements made later; `threads` can be set only here. Local.
-        Unknown names and values out of range raise a `PNPBSError` that names the nearest option or
-        the range. `pnpbs.option_table()` lists them."""
+        """Sets options by name, for placements that are created later, and returns the context.
+        `pnpbs.option_table()` lists the options. `threads` can be set only here, before the first
+        placement of the process is created. Local.
+
+        Raises `Status.ERROR_KEY` for an unknown name, with the nearest known one, and
+        `Status.ERROR_ARGUMENT` for a value out of range, with the range."""
         for key, value in options.items():
             self._check(_set_option("context", self._live(), key, value))
         return self
 
     def close(self) -> None:
-        """Releases the resources of the library, with the domains and placements made here. Closing
-        twice is allowed. Collective."""
+        """Releases the resources of the library, also those of the domains and placements on this
+        context. Repeated calls have no effect. Collective."""
         if not self.is_open:
             return
         for child in list(self._children):
@@ -116,8 +122,8 @@ class Context(Handle):
         return f"<pnpbs.Context, {what}>"
 
     def _check(self, code: int) -> Status:
-        """Checks the status of every call. An exception raised by a callback takes precedence, as
-        the library's own message only says that a callback failed."""
+        """Returns the status of a call, or raises its error. An exception that a callback has
+        raised has priority, because the error of the library only says that a callback failed."""
         raised, self._raised = self._raised, None
         if raised is not None:
             raise raised
@@ -126,11 +132,12 @@ class Context(Handle):
         return Status(code)
 
 
-_library = library  # the constructor has an argument of that name
+_library = library  # the constructor has an argument named `library`
 
 
 def _created(comm: Optional[Union[int, FortranComm]],
              library_text: Optional[str]) -> Optional[int]:
+    """Creates a context in the library and returns its handle."""
     handle = ctypes.c_void_p()
     if comm is None:
         code = _library().pnpbs_context_create_serial(ctypes.byref(handle))
@@ -151,15 +158,16 @@ def _created(comm: Optional[Union[int, FortranComm]],
 
 
 def _of_mpi4py(comm: FortranComm) -> Tuple[int, str]:
-    """Returns the Fortran handle and the library. A communicator is valid only while MPI runs.
-    Otherwise the library reports the error."""
+    """Returns the Fortran handle of a communicator, and the MPI library. The communicator is valid
+    only while MPI runs. Otherwise the handle is 0, and the library reports the error."""
     from mpi4py import MPI
     running = MPI.Is_initialized() and not MPI.Is_finalized()
-    # Open MPI counts the terminating zero as a part of the text.
+    # Open MPI includes the terminating null character in the text.
     return (comm.py2f() if running else 0), MPI.Get_library_version().rstrip("\0")
 
 
 def _close_with_mpi(context: Context) -> None:
+    """Registers a context that is closed when Python ends."""
     if not _on_mpi4py:
         atexit.register(_close_contexts_of_mpi4py)
     _on_mpi4py[:] = [other for other in _on_mpi4py if other.is_open]
@@ -167,6 +175,7 @@ def _close_with_mpi(context: Context) -> None:
 
 
 def _close_contexts_of_mpi4py() -> None:
+    """Closes the registered contexts, unless MPI is finalised already."""
     from mpi4py import MPI
     for context in _on_mpi4py:
         if not MPI.Is_finalized():
@@ -175,8 +184,8 @@ def _close_contexts_of_mpi4py() -> None:
 
 
 def _set_option(kind: str, handle: int, key: str, value: OptionValue) -> int:
-    """Calls one of the three functions of the library that set an option of a context or a
-    placement."""
+    """Sets an option of a context or placement with the function for the type of the value, and
+    returns the status."""
     code: int
     if isinstance(value, numbers.Integral):
         code = getattr(_library(), f"pnpbs_{kind}_set_int64")(handle, key.encode(), int(value))

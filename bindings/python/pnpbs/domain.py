@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Domains: the regions to be filled with nodes."""
+"""Domains: the regions that are filled with nodes."""
 
 from __future__ import annotations
 
@@ -24,11 +24,15 @@ _ROLES = {"boundary": _interface.BOUNDARY, "inner": _interface.INNER}
 
 
 class LeftOut(NamedTuple):
+    """Numbers of removed vertices, including those of removed curves, and of removed curves."""
+
     vertices: int
     curves: int
 
 
 class Outline(NamedTuple):
+    """Segments that approximate curves, of shape (n, 2, dim), and the tag of each."""
+
     segments: Doubles
     tags: Int32s
 
@@ -37,12 +41,14 @@ class Outline(NamedTuple):
 
 
 def _role_number(role: str) -> int:
+    """Returns the library's number of a role. Raises ValueError for another text."""
     if role not in _ROLES:
         raise ValueError(f"role is {role!r}; 'boundary' or 'inner' was expected")
     return _ROLES[role]
 
 
 def _as_function(d: Union[float, ArrayFunction]) -> ArrayFunction:
+    """Returns d if it is a function, or else the constant function with this value."""
     if callable(d):
         return d
     value = float(d)
@@ -50,15 +56,24 @@ def _as_function(d: Union[float, ArrayFunction]) -> ArrayFunction:
 
 
 class Domain(Handle):
-    """An empty domain in the plane, or with `dim=3` in space, to which curves, surfaces, holes and
-    fixed nodes are added. A point is inside if it lies behind an odd number of boundary curves, or
-    surfaces in space; holes and islands nest to any depth. Every method is local and returns the
-    domain; points are the rows of (n, dim) arrays, indices count from 0. Methods for domains "in
-    the plane" or "in space" reject others.
+    """An empty domain in the plane, or with `dim=3` in space. Curves, surfaces, holes and fixed
+    nodes are added to it.
 
-    The `role` of a curve or surface is "boundary", which separates inside from outside, or "inner",
-    which lies in the domain and which the nodes follow; curves in space are always inner. Its `tag`
-    is a nonzero integer that marks the nodes on it."""
+    - `context`: the context of the domain.
+    - `dim`: 2 for a domain in the plane, 3 for one in space.
+
+    A point is inside the domain if it lies behind an odd number of boundary curves, or of boundary
+    surfaces in space. Holes and islands nest to any depth. All methods are local. Methods that
+    change the domain return it. Points are the rows of arrays of shape (n, dim), which are copied,
+    and indices count from 0. Methods for domains "in the plane" or "in space" raise
+    `Status.ERROR_ARGUMENT` for others.
+
+    Common arguments:
+
+    - `role`: "boundary" for a curve or surface that separates inside from outside; "inner" for one
+      inside the domain that nodes follow. Curves in space are always inner.
+    - `tag`: a nonzero integer that marks the nodes on a curve or surface. `tags` is one number for
+      all segments or triangles, or one for each; None stands for 1."""
 
     def __init__(self, context: Context, dim: int = 2) -> None:
         super().__init__()
@@ -70,19 +85,26 @@ class Domain(Handle):
     @classmethod
     def on_sphere(cls, context: Context, radius: float, outside: ArrayLike) -> Domain:
         """Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere,
-        spacings are lengths along it, and points are the rows of (n, 3) arrays. Boundary curves
-        (`add_polyline`) follow great circles from vertex to vertex; the domain is what lies behind
-        an odd number of them, seen from a point in the direction `outside`, three numbers of any
-        length except 0. Nodes are placed in the stereographic projection from that point, which
-        should be ten spacings or more away from the domain. Without a boundary curve the domain is
-        the whole sphere, on which nodes around that point are laid first. Placements have `triangles` and
-        `boundary_edges`, as in the plane. Not on a sphere yet: particles, arcs,
-        parametric curves, files of curves other than those of `Shapes`, and spacing given on grids,
-        meshes or points.
+        spacings are lengths along it, and points are the rows of arrays of shape (n, 3). Boundary
+        curves (`add_polyline`) follow great circles from vertex to vertex. The domain lies behind
+        an odd number of them, as seen from a point outside. Placements have `triangles` and
+        `boundary_edges`, as in the plane.
+
+        - `radius`: greater than 0.
+        - `outside`: the direction of a point outside the domain, three numbers that are not all 0.
+          Nodes are placed in the stereographic projection from that point, which should be at least
+          ten spacings away from the domain.
+
+        Without a boundary curve the domain is the whole sphere. Nodes around the point are laid
+        first and stay fixed then.
+
+        The following are not available on a sphere: particles and offsets, arcs, parametric curves,
+        graphs, holes of a whole sphere, and files of curves other than those of `Shapes`.
 
             ring = pnpbs.sphere_points(1, [(lon, -70) for lon in range(0, 360, 2)])
             sea = pnpbs.Domain.on_sphere(context, 1, (0, 0, -1))
-            sea.add_polyline(ring, corner_angle=30)"""
+            sea.add_polyline(ring, corner_angle=30)
+        """
         direction = as_point(outside, 3, "outside")
         self = cls.__new__(cls)
         Handle.__init__(self)
@@ -94,13 +116,14 @@ class Domain(Handle):
         return self
 
     def _own(self, handle: ctypes.c_void_p) -> None:
+        """Takes over a new handle and registers the domain at its context."""
         self._handle = handle.value
         self._callbacks: List[Any] = []
         self.context._children.append(self)
 
     def close(self) -> None:
-        """Releases the resources of the library. A placement keeps what it needs of its domain.
-        Closing twice is allowed."""
+        """Releases the resources of the library. Placements keep what they need of the domain.
+        Repeated calls have no effect."""
         if self.is_open:
             self.context._check(self._destroy(library().pnpbs_domain_destroy))
             self.context._children.remove(self)
@@ -109,12 +132,13 @@ class Domain(Handle):
         return f"<pnpbs.Domain, {f'{self.dim}D' if self.is_open else 'closed'}>"
 
     def _call(self, name: str, *arguments: Any) -> Domain:
+        """Calls the function pnpbs_domain_<name> and returns the domain."""
         self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))
         return self
 
     @property
     def dim(self) -> int:
-        """2 in the plane, 3 in space and on a sphere."""
+        """The dimension of points: 2 in the plane, 3 in space and on a sphere."""
         dim = ctypes.c_int32()
         self._call("dimension", ctypes.byref(dim))
         return dim.value
@@ -123,11 +147,17 @@ class Domain(Handle):
 
     def add_polyline(self, coordinates: ArrayLike, closed: bool = True, role: Role = "boundary",
                      tags: Optional[ArrayLike] = None, corner_angle: float = 0.0) -> Domain:
-        """Adds straight segments through the rows of `coordinates`; with `closed`, a segment joins
-        the last to the first. `tags` is one for all segments or one for each. With `corner_angle=0`
-        every vertex becomes a node; otherwise only those where the direction turns by more than
-        this many degrees, and between them the polyline represents a smooth curve. In space the
-        role is "inner", and the `feature_angle` of the surfaces replaces the `corner_angle`."""
+        """Adds straight segments through vertices. On a sphere the segments are parts of great
+        circles.
+
+        - `coordinates`: the vertices, of shape (n, dim).
+        - `closed`: whether a segment joins the last vertex to the first one.
+        - `role`: "boundary" or "inner"; in space "inner".
+        - `tags`: one for all segments or one for each.
+        - `corner_angle`: in degrees. With 0 every vertex becomes a node. Otherwise only vertices
+          where the direction turns by more than this angle become nodes, and ends of open polylines
+          and vertices where curves meet. Between them the polyline represents a smooth curve. In
+          space the `feature_angle` of the surfaces is used instead."""
         points = as_points(coordinates, self.dim, "coordinates")
         n = len(points)
         segments = n if closed else max(n - 1, 0)
@@ -136,17 +166,25 @@ class Domain(Handle):
 
     def add_arc(self, centre: ArrayLike, radius: float, begin: float = 0.0, end: float = 2 * math.pi,
                 role: Role = "boundary", tag: int = 1) -> Domain:
-        """Adds a circular arc between two angles in radians, a full circle by default, to a domain
-        in the plane. Its ends join curves that end at the same point."""
+        """Adds a circular arc, by default a full circle, to a domain in the plane. Its ends join
+        curves that end at the same point, to within 1e-9 of the size of the domain.
+
+        - `centre`: two numbers.
+        - `radius`: greater than 0.
+        - `begin`, `end`: angles in radians."""
         return self._call("add_arc", _role_number(role), as_point(centre, 2, "centre"), radius,
                           begin, end, tag)
 
     def add_curve(self, curve: ArrayFunction, begin: float, end: float, role: Role = "boundary",
                   tag: int = 1) -> Domain:
-        """Adds the curve of a function to a domain in the plane: `curve(t)` gets an array of n
-        parameters between `begin` and `end` and returns the points, (n, 2). It must always return
-        the same point for the same parameter, be continuous, and not cross itself. Corners exist
-        only where curves meet."""
+        """Adds a curve that a function defines to a domain in the plane. Corners exist only where
+        curves meet. A curve whose ends coincide is closed.
+
+        - `curve`: a function `curve(t)` that receives n parameters between `begin` and `end` and
+          returns points of shape (n, 2). It must be pure and continuous, and the curve must not
+          cross itself. It is called now and whenever a placement is initialised, so the domain
+          keeps it. An exception that it raises is raised by the call in progress.
+        - `begin`, `end`: the range of the parameter."""
         callback = curve_callback(curve, self.context)
         self._call("add_curve", _role_number(role), callback, None, begin, end, tag)
         self._callbacks.append(callback)
@@ -156,9 +194,15 @@ class Domain(Handle):
                  vertex_tags: Optional[ArrayLike] = None, segment_tags: Optional[ArrayLike] = None,
                  holes: ArrayLike = ()) -> Domain:
         """Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The
-        domain is what the segments enclose, except the regions that contain a hole point.
-        `segments` is (m, 2), indices of rows of `coordinates`; `holes` is (h, 2). Every vertex
-        becomes a node."""
+        segments enclose the domain, except for regions that contain a hole point. Every vertex
+        becomes a node, unless `set_corner_angle` is called. This rule then holds for all curves of
+        the domain.
+
+        - `coordinates`: the vertices, of shape (n, 2).
+        - `segments`: indices of vertices, of shape (m, 2).
+        - `vertex_tags`: tags of vertices; 0 stands for the tag of the segment.
+        - `segment_tags`: tags of segments.
+        - `holes`: a point in each hole, of shape (h, 2)."""
         points = as_points(coordinates, 2, "coordinates")
         ends = as_indices(segments, 2, "segments")
         hole_points = as_points(holes, 2, "holes")
@@ -168,12 +212,13 @@ class Domain(Handle):
                           hole_points)
 
     def read_poly(self, path: Path) -> Domain:
-        """Reads a file in Triangle's .poly format and adds its content to a domain in the plane."""
+        """Adds the content of a file in Triangle's .poly format to a domain in the plane, as
+        `add_pslg` does. Raises `Status.ERROR_FILE` with file, line and what was expected."""
         return self._call("read_poly", os.fsencode(path))
 
     def parse_poly(self, text: str, name: str = "text") -> Domain:
-        """Adds the content of a text in Triangle's .poly format to a domain in the plane; `name` is
-        the name of the text in messages."""
+        """Adds the content of a text in Triangle's .poly format to a domain in the plane, as
+        `read_poly` does. `name` is the name of the text in messages."""
         content = text.encode()
         return self._call("parse_poly", content, len(content), name.encode())
 
@@ -181,13 +226,17 @@ class Domain(Handle):
 
     def add_surface(self, coordinates: ArrayLike, corners: ArrayLike, role: Role = "boundary",
                     tags: Optional[ArrayLike] = None, feature_angle: float = 40.0) -> Domain:
-        """Adds a triangulated surface to a domain in space: `corners` is (m, 3), indices of rows of
-        `coordinates`. Closed surfaces with the role "boundary" bound the domain; nodes follow
-        "inner" ones, closed or open. Coincident vertices are merged; the orientation is determined
-        by what the triangles enclose. `tags` is one for all triangles or one for each. Nodes lie on
-        the edge between two triangles if their normals differ by more than `feature_angle` degrees,
-        or if their tags differ. Between such edges the triangles only define the shape, whatever
-        their size."""
+        """Adds a triangulated surface to a domain in space. Closed surfaces with the role
+        "boundary" bound the domain. Nodes follow "inner" surfaces, which may be open. Coincident
+        vertices are merged. The triangles may have any orientation, because the enclosed volume
+        determines it.
+
+        - `coordinates`: the vertices, of shape (n, 3).
+        - `corners`: indices of vertices, of shape (m, 3).
+        - `tags`: one for all triangles or one for each.
+        - `feature_angle`: in degrees. Nodes lie on an edge between two triangles if their normals
+          differ by more than this angle, or if their tags differ. Between such edges the triangles
+          only define the shape, whatever their size is."""
         points = as_points(coordinates, 3, "coordinates")
         triangles = as_indices(corners, 3, "corners")
         return self._call("add_surface", _role_number(role), len(points), points, len(triangles),
@@ -195,13 +244,15 @@ class Domain(Handle):
 
     def read_surface(self, path: Path, role: Role = "boundary",
                      feature_angle: float = 40.0) -> Domain:
-        """Reads a surface from a file into a domain in space, in one of the formats that the header
-        lists at `pnpbs_domain_read_surface`. Groups, materials and facet markers become tags, hole
-        points become holes of the domain. Otherwise as `add_surface`."""
+        """Adds a surface from a file to a domain in space, as `add_surface` does. The header lists
+        the formats at `pnpbs_domain_read_surface`. Groups, materials and facet markers become tags,
+        and hole points become holes of the domain. Raises `Status.ERROR_FILE` with file, line and
+        what was expected."""
         return self._call("read_surface", _role_number(role), os.fsencode(path), feature_angle)
 
     def add_box(self, low: ArrayLike, high: ArrayLike, tag: int = 1) -> Domain:
-        """Adds a box to a domain in space; its sides bound the domain."""
+        """Adds a box to a domain in space. Its sides bound the domain. `low` and `high` are
+        opposite corners."""
         return self._call("add_box", as_point(low, 3, "low"), as_point(high, 3, "high"), tag)
 
     def add_ball(self, centre: ArrayLike, radius: float, tag: int = 1) -> Domain:
@@ -209,18 +260,24 @@ class Domain(Handle):
         return self._call("add_ball", as_point(centre, 3, "centre"), radius, tag)
 
     def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float, tag: int = 1) -> Domain:
-        """Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius;
+        """Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius.
         `begin` and `end` are the centres of its two circles."""
         return self._call("add_cylinder", as_point(begin, 3, "begin"), as_point(end, 3, "end"),
                           radius, tag)
 
     def add_level_set(self, level_set: ArrayFunction, low: ArrayLike, high: ArrayLike,
                       resolution: float, tag: int = 1) -> Domain:
-        """Adds the body where a function is negative to a domain in space: `level_set(x)` gets the
-        points, (n, 3), and returns n values. It must always return the same value for the same
-        point, be continuous, and be finite everywhere in the box between `low` and `high`, where
-        the body must lie; it need not be a distance. Its surface is found on an octree refined near
-        its zeros down to cells of side `resolution`: thinner features can be lost."""
+        """Adds the body where a function is negative to a domain in space. Its surface is found on
+        an octree that is refined near the zeros of the function. Thinner features can be lost.
+
+        - `level_set`: a function `level_set(x)` that receives points of shape (n, 3) and returns n
+          values. It must be pure, continuous and finite in the whole box; it need not be a
+          distance. It is called now and while placements compute, so the domain keeps it.
+        - `low`, `high`: opposite corners of a box that contains the body.
+        - `resolution`: side of the smallest cells of the octree.
+
+        Raises `Status.ERROR_DOMAIN` if the function is not finite, or negative on the border of the
+        box, with the point, or if it is negative nowhere."""
         callback = level_set_callback(level_set, self.context)
         self._call("add_level_set", callback, None, as_point(low, 3, "low"),
                    as_point(high, 3, "high"), resolution, tag)
@@ -230,18 +287,29 @@ class Domain(Handle):
     def add_offset(self, body: Domain, low: float, high: float,
                    d: Union[None, float, ArrayFunction] = None, resolution: float = 0.0,
                    tag: int = 1) -> Domain:
-        """Adds the body between two distances from the boundary of another: points whose signed
-        distance to it, negative inside, lies between `low` and `high` times d. Particles that each
-        stand for d^dim of matter lie half a spacing inside the wall: they are placed between `low`
-        = -math.inf and `high` = -0.42 in the plane, -0.46 in space, as nodes with a spacing of
-        1.076 d or 1.147 d. Their number is then nearly the integral of 1 / d^dim over the body. n
-        layers of wall particles lie outside, between 0.42 and n - 0.58 or, in space, 0.46 and n -
-        0.54. `d` is a number or a function as in `Placement.set_spacing`, which is evaluated in the
-        body's bounding box, and as far around it as the new body reaches, and a little farther;
-        with None, `low` and `high` are lengths. The boundary, with the tag, is found as that of a
-        level set (`add_level_set`) with this resolution, 0 for an eighth (in space half) of the
-        least d at the body's boundary, without `d` of the lesser of abs(low) and abs(high); what is
-        thinner is lost. Must be called identically on all ranks."""
+        """Adds the body between two distances from the boundary of another body. A point belongs to
+        it if its signed distance from that boundary, negative inside, lies between `low` and `high`
+        times d. All ranks must make the same call.
+
+        Particles that each represent d^dim of matter lie half a spacing inside the wall. To place
+        them, use `low` = -math.inf and `high` = -0.42 in the plane or -0.46 in space, with nodes of
+        the spacing 1.076 d or 1.147 d. Their number is then nearly the integral of 1 / d^dim over
+        the body. n layers of wall particles lie outside, between 0.42 and n - 0.58, or in space
+        between 0.46 and n - 0.54.
+
+        - `body`: a domain on the same context and of the same dimension. It is checked, and is not
+          needed afterwards.
+        - `low`, `high`: factors of d; `high` is finite.
+        - `d`: a number, or a function as in `Placement.set_spacing`. It is evaluated in the
+          bounding box of the body and around it, a little farther than the new body reaches. With
+          None, `low` and `high` are lengths.
+        - `resolution`: the boundary is found as that of a level set (`add_level_set`) with this
+          resolution; thinner parts are lost. 0 stands for an eighth, in space half, of the least d
+          at the boundary of the body, or without `d` of the lesser of abs(low) and abs(high).
+        - `tag`: tag of the new boundary.
+
+        Raises `Status.ERROR_DOMAIN` if the body is invalid or nothing lies between these distances,
+        and `Status.ERROR_SPACING` for values of d that are zero, negative or not finite."""
         callback = no_spacing() if d is None else spacing_callback(_as_function(d), self.context)
         self._call("add_offset", body._live(), low, high, callback, None, resolution, tag)
         self._callbacks.append(callback)
@@ -249,24 +317,29 @@ class Domain(Handle):
 
     def set_corner_angle(self, corner_angle: float) -> Domain:
         """Sets the corner angle of the graphs of a domain in the plane (`add_pslg`, `read_poly`,
-        `parse_poly`), both those already added and later ones. Corners are vertices where the
-        direction turns by more than this many degrees, where segments of different tags or other
-        than two of them end, and vertices with a tag of their own. Nodes lie on corners; between
-        them a graph represents a smooth curve, with nodes spaced by d. With 0, the default, every
-        vertex becomes a node."""
+        `parse_poly`), both of those added already and of later ones. Corners are vertices where the
+        direction turns by more than this angle in degrees, where segments of different tags or
+        other than two segments end, and vertices with a tag of their own. Nodes lie on corners.
+        Between corners a graph represents a smooth curve, with nodes spaced by d. With 0, the
+        default, every vertex becomes a node."""
         return self._call("set_corner_angle", corner_angle)
 
     def simplify(self, d: Union[float, ArrayFunction], tolerance: float = 0.25,
                  smallest: float = 0.0) -> LeftOut:
-        """Removes features finer than d, such as those of coastlines, from a domain in the plane.
-        From the graphs and polylines added so far, it removes vertices next to segments shorter
-        than d, as long as the curve then passes them within `tolerance` times d, and closed curves,
-        islands and lakes, whose extent (the longer side of their bounding box) is less than
-        `smallest` times d. `d` is a number or a function as in `Placement.set_spacing`. No other
-        vertex, fixed node or hole point changes to another side of a curve. Vertices are kept where
-        curves meet or end, where tags change or a vertex has its own, and at fixed nodes. Returns
-        the numbers of removed vertices, including those of the curves, and of removed curves. Must
-        be called identically on all ranks."""
+        """Removes features smaller than d, such as those of coastlines, from the graphs and
+        polylines of a domain in the plane. It removes vertices next to segments shorter than d, as
+        long as the curve then passes them within `tolerance` times d. It also removes closed
+        curves, such as islands and lakes, whose extent is less than `smallest` times d, where the
+        extent is the longer side of the bounding box. No other vertex, fixed node or hole point
+        changes to another side of a curve. Vertices are kept where curves meet or end, where tags
+        change, where a vertex has a tag of its own, and at fixed nodes. All ranks must make the
+        same call. If the call raises, the domain is unchanged.
+
+        - `d`: a number, or a function as in `Placement.set_spacing`.
+        - `tolerance`: at least 0.
+        - `smallest`: at least 0; 0 removes no curve.
+
+        Returns the numbers of removed vertices and curves as `LeftOut`."""
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
         self._call("simplify", spacing_callback(_as_function(d), self.context), None, tolerance,
                    smallest, ctypes.byref(vertices), ctypes.byref(curves))
@@ -274,57 +347,70 @@ class Domain(Handle):
 
     def simplify_by_file(self, path: Path, field: Optional[str] = None, tolerance: float = 0.25,
                          smallest: float = 0.0) -> LeftOut:
-        """Does the same as `simplify` with a spacing from a file with values at points, as in
-        `Placement.set_spacing_file`."""
+        """Removes features as `simplify` does, with a spacing from a file with values at points,
+        as in `Placement.set_spacing_file`. Returns a `LeftOut`. Raises `Status.ERROR_FILE` if
+        the file cannot be read, and `Status.ERROR_SPACING` for values that are zero, negative or
+        not finite."""
         vertices, curves = ctypes.c_int64(), ctypes.c_int64()
         self._call("simplify_by_file", os.fsencode(path), None if field is None else field.encode(),
                    tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
     def set_filled(self, filled: bool) -> Domain:
-        """Sets whether a domain in space is the volume enclosed by its surfaces (the default) or,
-        with False, the surfaces alone: nodes on them, triangles between these nodes, and no
-        interior."""
+        """Sets whether a domain in space is the volume enclosed by its surfaces, which is the
+        default. With False it is the surfaces alone: nodes lie on them, triangles join these nodes,
+        and there is no interior."""
         return self._call("set_filled", bool(filled))
 
     def set_repair(self, resolution: float = 0.0) -> Domain:
         """Repairs the triangulated boundary surfaces of a domain in space that enclose one body
-        imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces are
-        unchanged, and a warning reports that nothing is repaired. The body is where they wind
-        around a point more than half a time, in either orientation. Holes are closed, overlapping
-        bodies are joined, and surfaces that enclose nothing are dropped. The surface of the body is
-        extracted as that of a level set, with its sharp edges; all of it has the tag of the first
-        triangle. A warning reports its distance from the given triangles. Features thinner than the
-        resolution can be lost: it should be no more than the spacing at the surface; 0 is 1/64 of
-        the longest side of the bounding box of the triangles."""
+        imperfectly: open, crossing, folded or inconsistently oriented. Sound surfaces do not
+        change, and a warning reports that nothing is repaired. The body is the set of points around
+        which the surfaces wind more than half a time, in either orientation. Holes are closed,
+        overlapping bodies are joined, and surfaces that enclose nothing are removed. The surface of
+        the body is extracted as that of a level set, with its sharp edges. All of it has the tag of
+        the first triangle. A warning reports its distance from the given triangles. Features
+        thinner than the resolution can be lost.
+
+        - `resolution`: at least 0, and no more than the spacing at the surface. 0 stands for 1/64
+          of the longest side of the bounding box of the triangles.
+
+        `check` raises `Status.ERROR_DOMAIN` if the triangles enclose nothing."""
         return self._call("set_repair", float(resolution))
 
     def set_resurfaced(self, resolution: float = 0.0) -> Domain:
-        """Replaces the triangulated boundary surfaces of a domain in space as set_repair() does,
-        even if they need no repair: this removes what is finer than the resolution from a body."""
+        """Replaces the triangulated boundary surfaces of a domain in space as `set_repair` does,
+        even if they need no repair. This removes features of the body that are smaller than the
+        resolution. The last call of `set_repair` or `set_resurfaced` is effective.
+
+        - `resolution`: at least 0, and no more than the spacing at the surface. 0 stands for 1/64
+          of the longest side of the bounding box of the triangles."""
         return self._call("set_resurfaced", float(resolution))
 
     # ------------------------------------------------------------ files and tags ---------------
 
     def read_msh(self, path: Path, feature_angle: float = 40.0) -> Domain:
-        """Reads a mesh in Gmsh's MSH format and adds its boundary: in the plane lines and edges, in
-        space triangles, with their physical groups as tags. Sheets and lines inside are inner
-        surfaces and curves, points are fixed nodes. `feature_angle` in degrees is as in
-        `add_surface`, in the plane as the `corner_angle` of `add_polyline`."""
+        """Reads a mesh in Gmsh's MSH format and adds its boundary. In the plane the boundary
+        consists of lines and edges, in space of triangles; physical groups become tags. Sheets and
+        lines inside become inner surfaces and curves, and points become fixed nodes.
+        `feature_angle` in degrees is that of `add_surface`, in the plane the `corner_angle` of
+        `add_polyline`. Raises `Status.ERROR_FILE` with file, line or byte, and what was expected.
+        """
         return self._call("read_msh", os.fsencode(path), feature_angle)
 
     def set_role(self, tag: int, role: Role) -> Domain:
         """Sets the role of all triangles with a tag in a domain in space. It overrides the role
-        they are added with."""
+        with which they are added, before or after this call. Checking the domain fails if no
+        triangle has the tag."""
         return self._call("set_role", tag, _role_number(role))
 
     def set_tag_name(self, dim: int, tag: int, name: str) -> Domain:
-        """Sets the name of a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3), for
-        files with physical groups."""
+        """Sets the name of a tag, for files with physical groups. `dim` is the dimension of the
+        entity with the tag: 0 for points, 1 for curves, 2 for surfaces, 3 for bodies."""
         return self._call("set_tag_name", dim, tag, name.encode())
 
     def tag_names(self) -> Dict[Tuple[int, int], str]:
-        """Returns the names of tags, set or from files: {(dim, tag): name}."""
+        """Returns the names of tags, set or from files, as {(dim, tag): name}."""
         count = ctypes.c_int32()
         self._call("tag_name_count", ctypes.byref(count))
         names = {}
@@ -338,30 +424,34 @@ class Domain(Handle):
     # ------------------------------------------------------------ points -----------------------
 
     def add_hole(self, point: ArrayLike) -> Domain:
-        """Removes the region around a point from the domain, up to the next curves or surfaces."""
+        """Removes the region around a point from the domain, up to the next curves or surfaces of
+        either role."""
         return self._call("add_hole", as_point(point, self.dim, "point"))
 
     def add_region(self, point: ArrayLike, tag: int) -> Domain:
-        """Gives a tag, not 0, to the region around a point, up to the next curves or surfaces:
-        elements that lie in it have this tag (`Placement.element_tags`, `Placement.mesh`), in files
-        too. So inner curves and surfaces divide a domain into materials. Elements of regions
-        without a point have the tag 0. `check` raises `Status.ERROR_DOMAIN` if the point lies
-        outside the domain, on a curve or surface, or in a region with another tag."""
+        """Gives a tag to the region around a point, up to the next curves or surfaces of either
+        role. Elements in the region have this tag (`Placement.element_tags`, `Placement.mesh`),
+        also in files. Inner curves and surfaces thus divide a domain into materials. Elements of
+        regions without a point have the tag 0.
+
+        `check` raises `Status.ERROR_DOMAIN` if the point lies outside the domain, on a curve or
+        surface, or in a region with another tag."""
         return self._call("add_region", as_point(point, self.dim, "point"), tag)
 
     def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None) -> Domain:
-        """Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of
-        its curves or surfaces."""
+        """Adds fixed nodes, which keep their exact coordinates. They must lie inside the domain or
+        on a vertex of its curves or surfaces. `coordinates` has the shape (n, dim), and `tags` is
+        one for all nodes or one for each."""
         points = as_points(coordinates, self.dim, "coordinates")
         return self._call("add_fixed_nodes", len(points), points,
                           as_tags(tags, len(points), "tags"))
 
-    # ------------------------------------------------------------ what it is -------------------
+    # ------------------------------------------------------------ queries ----------------------
 
     def check(self) -> Domain:
-        """Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points
-        outside. A `PNPBSError` with `Status.ERROR_DOMAIN` names the vertex, segment or triangle.
-        Placements check it, too; checking early adds no cost."""
+        """Checks the whole geometry: duplicate vertices, crossings, boundaries that do not close,
+        hole points outside, fixed nodes outside or too close. Placements check it, too; an early
+        check adds no cost. Raises `Status.ERROR_DOMAIN` with the vertex, segment or triangle."""
         return self._call("check")
 
     def bounds(self) -> Tuple[Doubles, Doubles]:
@@ -371,14 +461,21 @@ class Domain(Handle):
         return low, high
 
     def measure(self) -> float:
-        """Returns the area of the inside, in space its volume; of surfaces alone their area."""
+        """Returns the area of the inside, in space its volume, or the area of surfaces alone.
+        Checks the domain first."""
         inside = ctypes.c_double()
         self._call("measure", ctypes.byref(inside))
         return inside.value
 
     def distance(self, coordinates: ArrayLike, tag: int = 0) -> Doubles:
-        """Evaluates the distances of points to the boundary of the domain, or to the curves,
-        surfaces or nodes with a tag."""
+        """Evaluates the distances of points from the boundary of the domain, or from the curves,
+        surfaces or nodes with a tag. The first query after a change of the domain builds a search
+        tree. If a callback queries distances, query one before the run.
+
+        - `coordinates`: the points, of shape (n, dim).
+        - `tag`: 0 stands for the boundary of the domain.
+
+        Returns n distances. Raises `Status.ERROR_ARGUMENT` if nothing has the tag."""
         points = as_points(coordinates, self.dim, "coordinates")
         distances = np.zeros(len(points))
         self._call("distance", tag, len(points), points, distances)
@@ -387,9 +484,10 @@ class Domain(Handle):
     def shape_spacing(self, coordinates: ArrayLike, nodes_per_turn: float = 0.0,
                       nodes_across: float = 0.0, nodes_per_edge: float = 0.0,
                       growth: float = 0.0) -> Doubles:
-        """Evaluates the spacing that `Placement.set_spacing_from_shape` would set at points,
-        without its bounds. The first query takes longest: make one before querying from inside a
-        callback."""
+        """Evaluates the spacing that `Placement.set_spacing_from_shape` sets, without its bounds,
+        at points of shape (n, dim), and returns n values. The other arguments are those of that
+        method. The first query computes what the shape requires. If a callback queries this
+        spacing, query it once before the run."""
         points = as_points(coordinates, self.dim, "coordinates")
         d = np.zeros(len(points))
         self._call("shape_spacing", nodes_per_turn, nodes_across, nodes_per_edge, growth,
@@ -397,9 +495,9 @@ class Domain(Handle):
         return d
 
     def outline(self) -> Outline:
-        """Returns straight segments, (n, 2, dim), that approximate the curves of a domain in the
-        plane or on a sphere, finely sampled, for pictures: `segments[k, 0]` and `segments[k, 1]` are the ends of one; and
-        their tags."""
+        """Returns an `Outline` of the curves of a domain in the plane or on a sphere, for pictures.
+        `segments` has the shape (n, 2, dim) and holds the ends of straight segments that
+        approximate the curves; `tags` are the tags of the curves."""
         count = ctypes.c_int64()
         self._call("get_segments", 0, ctypes.byref(count), None, None)
         segments = np.zeros((count.value, 2, self.dim))
@@ -409,8 +507,12 @@ class Domain(Handle):
 
 
 def sphere_points(radius: float, degrees: ArrayLike) -> Doubles:
-    """Computes points on a sphere about the origin, (n, 3), from longitude and latitude: `degrees`
-    is (n, 2), with longitudes that may exceed a full turn and latitudes from -90 to 90."""
+    """Computes points on a sphere about the origin, of shape (n, 3), from longitude and latitude.
+    Local.
+
+    - `radius`: greater than 0.
+    - `degrees`: longitudes, which may exceed a full turn, and latitudes from -90 to 90, of shape
+      (n, 2)."""
     places = as_points(degrees, 2, "degrees")
     points = np.zeros((len(places), 3))
     check_without_context(library().pnpbs_sphere_points(radius, len(places), places, points))
@@ -418,8 +520,9 @@ def sphere_points(radius: float, degrees: ArrayLike) -> Doubles:
 
 
 def sphere_degrees(coordinates: ArrayLike) -> Doubles:
-    """Computes longitude, from -180 to 180, and latitude, from -90 to 90, of the directions of
-    points: (n, 2) for the rows of `coordinates`, (n, 3), none of them 0."""
+    """Computes longitudes, from -180 to 180, and latitudes, from -90 to 90, of the directions of
+    points. `coordinates` has the shape (n, 3), without points at 0. Returns an array of shape (n,
+    2). Local."""
     points = as_points(coordinates, 3, "coordinates")
     degrees = np.zeros((len(points), 2))
     check_without_context(library().pnpbs_sphere_degrees(len(points), points, degrees))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Conversion of the library's status to Python exceptions."""
+"""Conversion of the library's status to exceptions."""
 
 from __future__ import annotations
 
@@ -13,12 +13,19 @@ from ._interface import library
 
 
 class Status(enum.IntEnum):
-    """The header's statuses: the outcome of a call, or the reason for its failure.
+    """Status of a call: an outcome with valid results, or the kind of an error.
 
-    Of a run: `OK`; `NOT_CONVERGED`, the step limit was reached before the bubbles were at rest,
-    which is no failure; `SPACING_MISSED`, in one of the bands of `Placement.edge_bands` with 50
-    edges or more the mean differs from 1 by more than 0.1; `NOT_CONFORMING`, the elements do not
-    fill the domain; `STOPPED` by the monitor. In all these cases the nodes are valid."""
+    Outcomes of a run, in all of which the nodes are valid:
+
+    - `OK`: the bubbles are at rest.
+    - `NOT_CONVERGED`: the step limit was reached before the bubbles were at rest. This is not an
+      error.
+    - `STOPPED`: the monitor has stopped the run.
+    - `SPACING_MISSED`: in a band of `Placement.edge_bands` with 50 edges or more, the mean differs
+      from 1 by more than 0.1.
+    - `NOT_CONFORMING`: the elements do not fill the domain.
+
+    The other values are errors; `PNPBSError.status` has them."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -45,21 +52,25 @@ class Status(enum.IntEnum):
 
 
 class ErrorReason(enum.IntEnum):
-    """What is known of an error besides its status. `CROSSING`: with `Status.ERROR_DOMAIN`,
-    segments of curves cross or overlap."""
+    """Detail of an error besides its status. `CROSSING` comes with `Status.ERROR_DOMAIN`: segments
+    of curves cross or overlap."""
 
     OTHER = 0
     CROSSING = 1
 
 
 class PNPBSError(Exception):
-    """An error of the library. `status` is a `Status` such as `Status.ERROR_SPACING`, `reason` an
-    `ErrorReason`, and `points` are those that the message names. The message says what was wrong,
-    with the value, and what to change. Functions marked "collective" raise on
-    all ranks or on none.
+    """An error of the library.
 
-    An exception that a callback raises is raised unchanged by the call in progress, on the rank
-    that raised it; the other ranks get a `PNPBSError` with `Status.ERROR_CALLBACK`."""
+    - `status`: a `Status` such as `Status.ERROR_SPACING`.
+    - `reason`: an `ErrorReason`.
+    - `points`: the points that the message names.
+
+    The message states what is wrong, with the value, and what to change. "Collective" functions
+    raise on all ranks or on none.
+
+    An exception that a callback raises ends the call in progress, which raises it unchanged on the
+    rank of the callback. The other ranks raise a `PNPBSError` with `Status.ERROR_CALLBACK`."""
 
     def __init__(self, status: Status, message: str,
                  reason: ErrorReason = ErrorReason.OTHER,
@@ -71,12 +82,13 @@ class PNPBSError(Exception):
 
 
 def last_error(context: Any) -> str:
-    """Returns the message of the last error on a context, or with None that of this thread."""
+    """Returns the message of the last error on a context, or of this thread if it is None."""
     return str(library().pnpbs_last_error(context).decode())
 
 
 def error_of(code: int, context: Any) -> PNPBSError:
-    """Returns the exception for a status that is an error, with the library's data about it."""
+    """Returns the exception for a status that is an error, with reason and points of the last
+    error."""
     reason, count = ctypes.c_int32(), ctypes.c_int32()
     library().pnpbs_last_error_data(context, ctypes.byref(reason), ctypes.byref(count))
     known = reason.value in ErrorReason.__members__.values()
@@ -90,7 +102,6 @@ def error_of(code: int, context: Any) -> PNPBSError:
 
 
 def check_without_context(code: int) -> None:
-    """Checks the status of a call without a context to hold the message, such as a failed create.
-    """
+    """Raises a `PNPBSError` if a function without a context fails."""
     if code < 0:
         raise error_of(code, None)

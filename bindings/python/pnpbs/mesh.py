@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distributed meshes: a rank's part in plain arrays, of which nothing must be closed."""
+"""Distributed meshes, as plain arrays of the part of each rank. They need not be closed."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from .rows import CompressedRows
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DistributedMesh(MeshConversions):
-    """A rank's part of a distributed mesh, made by `placement.mesh`. Its attributes are those of
-    `MeshArrays`. `plot` draws it; `to_meshio`, `to_pyvista`, `to_skfem`, `to_dolfinx` and
-    `to_petsc` hand it to other packages."""
+    """The part of this rank of a distributed mesh, as returned by `placement.mesh`. Its attributes
+    are those of `MeshArrays`. `plot` draws it; `to_meshio`, `to_pyvista`, `to_skfem`, `to_dolfinx`
+    and `to_petsc` convert it for other packages."""
 
     def __repr__(self) -> str:
         return (f"<pnpbs.DistributedMesh, {self.dim}D, {counted(len(self.ids), 'node')}, "
@@ -73,6 +73,7 @@ class DistributedMesh(MeshConversions):
 
 
 def _int64s(n: int) -> List[ctypes.c_int64]:
+    """Returns n integers for outputs of the library."""
     return [ctypes.c_int64() for _ in range(n)]
 
 
@@ -80,36 +81,45 @@ _Self = TypeVar("_Self", bound="Meshes")
 
 
 class Meshes(PlacementHandle):
-    """The part of `Placement` that makes distributed meshes."""
+    """The part of `Placement` that creates distributed meshes."""
 
     def mesh(self, ghost_layers: int = 0) -> DistributedMesh:
-        """Makes a distributed mesh of the current nodes: on each rank the nodes, elements and
-        facets that it owns, and layers of ghost elements with their nodes, in the arrays of a
-        `DistributedMesh`. No rank holds more than its part. Elements are triangles in the plane,
-        tetrahedra in space, and triangles on surfaces alone, all with positive orientation (on
-        surfaces alone counter-clockwise as seen from the side that the normal points to). A node
-        belongs to the rank that owns it in the placement, and an element to the owner of its node
-        with the lowest id. The mesh is a copy: nodes may move afterwards, and the placement may be
-        closed.
+        """Creates a distributed mesh of the current nodes. On each rank it has the nodes, elements
+        and facets that the rank owns, and layers of ghost elements with their nodes. No rank holds
+        more than its part. Collective.
 
-        With `ghost_layers=0` this rank has only the elements that it owns. With 1 it also has those
-        of other ranks that have a node in common with these, or with the nodes that it owns, so all
-        elements at its nodes. Each further layer, up to 16, adds the elements that have a node in
-        common with the layer before. All ranks give the same number. Collective."""
+        - `ghost_layers`: 0 to 16, the same on all ranks. With 0 this rank has only the elements
+          that it owns. With 1 it also has the elements of other ranks that share a node with these
+          elements or contain a node that it owns, and therefore all elements at its nodes. Each
+          further layer adds the elements that share a node with the previous layer.
+
+        Elements are triangles in the plane, tetrahedra in space, and triangles on surfaces alone.
+        All have a positive orientation; on surfaces alone they are counter-clockwise as seen from
+        the side to which the normal points. A node belongs to the rank that owns it in the
+        placement, and an element to the owner of its node with the lowest id.
+
+        Returns a `DistributedMesh`, which is a copy: nodes may move afterwards, and the placement
+        may be closed. Raises `Status.ERROR_STATE` without nodes."""
         with self._mesh_of_library(ghost_layers) as handle:
             return DistributedMesh._copied(self.context, handle)
 
     def write_mesh(self: _Self, prefix: Path, ghost_layers: int = 1) -> _Self:
-        """Writes a distributed mesh of the current nodes (see `mesh`) in files of Gmsh's format
-        4.1, in parts as Gmsh partitions a mesh: rank r writes `prefix_<r + 1>.msh`, partition
-        r + 1. The file has the nodes, elements and ghost elements of the rank and the facets that
-        it owns. Nodes and elements have their numbers plus 1, and facets are numbered behind all
-        elements, so that the files have the same numbers for the same things. Tags are physical
-        groups, named as by `write`; the inside is one, too. Programs that read ghost elements, such
-        as deal.II, need one ghost layer; with none the files have none. All files appear when all
-        are complete; after an error, existing files are unchanged. Files of an earlier mesh on more
-        ranks remain. All ranks give the same prefix: folder and begin of the names of the files.
-        Collective."""
+        """Writes a distributed mesh of the current nodes (see `mesh`) into files of Gmsh's format
+        4.1, partitioned as Gmsh does it: rank r writes partition r + 1 to `prefix_<r + 1>.msh`.
+        Collective.
+
+        - `prefix`: folder and beginning of the names of the files, the same on all ranks.
+        - `ghost_layers`: as in `mesh`. Programs that read ghost elements, such as deal.II, need one
+          layer.
+
+        A file has the nodes, elements and ghost elements of the rank and the facets that it owns.
+        Nodes and elements have their numbers plus 1, and facets are numbered after all elements, so
+        all files use the same numbers. Tags are physical groups, named as by `write`; the inside is
+        a group, too. All files appear when all are complete. If the call raises, existing files do
+        not change. Files of an earlier mesh on more ranks remain.
+
+        Returns the placement. Raises `Status.ERROR_FILE` if a rank cannot write, with the name of
+        its file."""
         with self._mesh_of_library(ghost_layers) as handle:
             with signals_kept_in(self.context):
                 code = library().pnpbs_mesh_write(handle, os.fsencode(prefix))
@@ -118,7 +128,7 @@ class Meshes(PlacementHandle):
 
     @contextmanager
     def _mesh_of_library(self, ghost_layers: int) -> Iterator[ctypes.c_void_p]:
-        """Yields a handle that is destroyed at the end of the block."""
+        """Yields the handle of a new mesh, which is destroyed at the end of the block."""
         handle = ctypes.c_void_p()
         self.context._check(library().pnpbs_mesh_create(self._live(), ghost_layers,
                                                         ctypes.byref(handle)))

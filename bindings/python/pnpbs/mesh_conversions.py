@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A distributed mesh as other packages take it. Each of them is imported only when it is asked
-for."""
+"""Conversions of a distributed mesh for other packages. Each package is imported only by the
+conversion that needs it."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ from .mesh_arrays import MeshArrays
 
 
 class MeshConversions(MeshArrays):
-    """The part of `DistributedMesh` that hands it to other packages."""
+    """The part of `DistributedMesh` that converts it for other packages."""
 
     def to_meshio(self) -> Any:
-        """Returns what this rank owns as a `meshio.Mesh`: elements as cells, and facets as cells of
-        one dimension less. Cells have the data `tag`, of elements that of the region, points `tag`,
-        `id` and `number`. Nodes of other ranks in these elements are among the points. Local."""
+        """Returns what this rank owns as a `meshio.Mesh`, with elements as cells and facets as
+        cells of one dimension less. Cells have the data `tag`, which for elements is that of the
+        region. Points have the data `tag`, `id` and `number`, and include nodes of other ranks at
+        owned elements. Local."""
         meshio = _package("meshio")
         names = {2: "line", 3: "triangle", 4: "tetra"}
         mine = self._owned_facets()
@@ -35,9 +36,10 @@ class MeshConversions(MeshArrays):
                            point_data={"tag": self.tags, "id": self.ids, "number": self.numbers})
 
     def to_pyvista(self, facets: bool = False) -> Any:
-        """Returns what this rank owns as a `pyvista.UnstructuredGrid`, of its elements or of its
-        facets. Cells have the data `tag`, of elements that of the region, points `tag`, `id` and
-        `number`. Nodes of other ranks in these elements are among the points. Local."""
+        """Returns the elements that this rank owns, or its facets if `facets` is true, as a
+        `pyvista.UnstructuredGrid`. Cells have the data `tag`, which for elements is that of the
+        region. Points have the data `tag`, `id` and `number`, and include nodes of other ranks at
+        owned elements. Local."""
         pyvista = _package("pyvista")
         types = {2: pyvista.CellType.LINE, 3: pyvista.CellType.TRIANGLE, 4: pyvista.CellType.TETRA}
         mine = self._owned_facets() if facets else slice(self.owned_elements)
@@ -50,9 +52,10 @@ class MeshConversions(MeshArrays):
         return grid
 
     def to_skfem(self) -> Any:
-        """Returns the mesh as scikit-fem's `MeshTri` or `MeshTet`, with one of its boundaries for
-        each tag of facets, and one of its subdomains for each tag of regions: `tag_7` for 7.
-        scikit-fem has no ranks, so all nodes must be on this one. Local."""
+        """Returns the mesh as scikit-fem's `MeshTri` or `MeshTet`. Each tag of facets becomes a
+        boundary, and each tag of regions a subdomain, with names such as `tag_7`. Local. Raises
+        ValueError if other ranks have nodes, because scikit-fem does not use ranks, and for
+        surfaces in space."""
         skfem = _package("skfem")
         if self.owned_nodes != self.all_nodes:
             raise ValueError(f"this rank owns {self.owned_nodes} of {self.all_nodes} nodes; "
@@ -70,14 +73,18 @@ class MeshConversions(MeshArrays):
                                      for tag in regions})
 
     def to_dolfinx(self, comm: Any, regions: bool = False) -> Tuple[Any, ...]:
-        """Returns the mesh for DOLFINx, and the tags of its facets (boundary and inner ones) as
-        mesh tags; with `regions=True` the tags of its cells as well, those of regions, on surfaces
-        alone of the surfaces. Cells without a tag are not in these. Each rank keeps the elements
-        that it owns as cells, with those across their facets as ghosts: DOLFINx partitions nothing.
-        So on several ranks the mesh must have a ghost layer, `placement.mesh(ghost_layers=1)`.
-        `input_global_indices` of the geometry are the numbers of the nodes, by which fields are
-        brought over. `comm`: mpi4py's communicator of the placement's context. Collective. Tried
-        with DOLFINx 0.5.2."""
+        """Returns the mesh for DOLFINx and the tags of its facets as mesh tags, both of boundary
+        and inner facets. Collective. Tested with DOLFINx 0.5.2.
+
+        - `comm`: mpi4py's communicator of the context of the placement.
+        - `regions`: whether to return the mesh tags of cells as well. They are the tags of regions,
+          on surfaces alone those of the surfaces, without cells of the tag 0.
+
+        Each rank keeps the elements that it owns as cells, and has the elements across their facets
+        as ghosts. DOLFINx does not partition the mesh. On several ranks the mesh must have a ghost
+        layer, as that of `placement.mesh(ghost_layers=1)`; otherwise the call raises ValueError.
+        `input_global_indices` of the geometry are the numbers of the nodes, which relate fields of
+        the placement to those of DOLFINx."""
         dolfinx = _package("dolfinx")
         ghosts = len(self.elements) - self.owned_elements
         if comm.allreduce(len(self.shared_nodes)) > 0 and comm.allreduce(ghosts) == 0:
@@ -99,41 +106,47 @@ class MeshConversions(MeshArrays):
 
     def to_petsc(self, comm: Any) -> Tuple[Any, Any]:
         """Returns the mesh as petsc4py's `DMPlex`, with edges and faces, and an `SF` between the
-        nodes of the placement and the vertices of the plex. The cells on each rank are the elements
-        that it owns: nothing is gathered, and PETSc partitions nothing. Ghost elements are left
-        out, and `plex.distributeOverlap` makes PETSc's own. Labels: "Face Sets" has the tags of
-        facets (boundary and inner ones), "marker" is 1 on the boundary, and "Cell Sets" has the
-        tags of cells, those of regions, on surfaces alone of the surfaces; cells without a tag are
-        not in it. The roots of the `SF` are the nodes that this rank owns, in the order of
-        `placement.nodes()`, its leaves the vertices on this rank, in the plex's order: so
-        `bcastBegin` and `bcastEnd` bring a field of the placement to the vertices, and
-        `reduceBegin` and `reduceEnd` bring it back. `comm`: mpi4py's communicator of the
-        placement's context. Collective. Tried with petsc4py 3.18.5."""
+        nodes of the placement and the vertices of the plex. Collective. Tested with petsc4py
+        3.18.5.
+
+        - `comm`: mpi4py's communicator of the context of the placement.
+
+        The cells on each rank are the elements that it owns. Nothing is gathered, and PETSc does
+        not partition the mesh. Ghost elements are omitted; `plex.distributeOverlap` creates ghost
+        cells. The label "Face Sets" holds the tags of boundary and inner facets, "marker" is 1 on
+        the boundary, and "Cell Sets" holds the tags of cells: those of regions, on surfaces alone
+        those of the surfaces, without cells of the tag 0.
+
+        The roots of the `SF` are the nodes that this rank owns, in the order of
+        `placement.nodes()`. Its leaves are the vertices on this rank, in the order of the plex.
+        `bcastBegin` and `bcastEnd` send a field from the nodes to the vertices; `reduceBegin` and
+        `reduceEnd` send it back."""
         return plex_of(self, comm)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws what this rank owns on `ax` or a new canvas, which it returns. In the plane:
-        triangles, and facets in the colours of their tags, on axes of Matplotlib. In space: facets
-        of bodies, or the triangles on surfaces alone, in the colours of their tags, by a plotter of
-        PyVista, or on axes of Matplotlib where there is no PyVista. Local."""
+        """Draws what this rank owns on `ax`, or on a new canvas if it is None, and returns the
+        canvas. In the plane it draws triangles, and facets in the colours of their tags, with
+        Matplotlib. In space it draws the facets of bodies, or the triangles of surfaces alone, in
+        the colours of their tags, with PyVista, or with Matplotlib if PyVista is not installed.
+        Local."""
         return plot_mesh(self, self._owned_facets(), ax)
 
     def _destinations(self, rank: int) -> Tuple[Int32s, Int32s]:
-        """Returns the ranks of each owned element, which are this rank and the owners of the
-        elements across its facets, as compressed rows: ranks, offsets."""
+        """Returns the ranks that need each owned element, as compressed rows (ranks, offsets): this
+        rank first, then the owners of the elements across its facets."""
         here = np.arange(self.owned_elements)
         element, other = self._across_facets()
         owned = element < self.owned_elements
         ranks = np.stack([element[owned], self.element_owners[other[owned]]], axis=1)
         ranks = np.unique(ranks[ranks[:, 1] != rank], axis=0)
         row = np.concatenate([here, ranks[:, 0]])
-        order = np.argsort(row, kind="stable")  # this rank comes first, as the owner
+        order = np.argsort(row, kind="stable")  # the owner comes first
         value = np.concatenate([np.full(len(here), rank), ranks[:, 1]])[order]
         offsets = np.searchsorted(row[order], np.arange(self.owned_elements + 1))
         return value.astype(np.int32), offsets.astype(np.int32)
 
     def _across_facets(self) -> Tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Returns the pairs of elements here with a common facet, in both orders."""
+        """Returns all pairs of elements on this rank with a common facet, in both orders."""
         n, corners = self.elements.shape
         if n == 0:
             return np.zeros(0, np.int64), np.zeros(0, np.int64)
@@ -146,18 +159,20 @@ class MeshConversions(MeshArrays):
         return np.concatenate([a, b]), np.concatenate([b, a])
 
     def _owned_facets(self) -> NDArray[np.bool_]:
-        """Returns which facets this rank owns. A rank without nodes has no facets."""
+        """Returns the mask of the facets that this rank owns. A rank without nodes owns no
+        facet."""
         rank = self.owners[0] if self.owned_nodes else -1
         return np.equal(self.facet_owners, rank)
 
 
 def _package(name: str) -> Any:
-    """Imports a package that may not be installed."""
+    """Imports an optional package."""
     return importlib.import_module(name)
 
 
 def _rows_of(table: NDArray[Any], rows: NDArray[Any]) -> NDArray[np.int64]:
-    """Returns the position of each row in the table. Each row is in the table exactly once."""
+    """Returns the index in `table` of each of the rows. Each of them occurs in the table exactly
+    once."""
     _, key = np.unique(np.concatenate([table, rows]), axis=0, return_inverse=True)
     key = key.ravel()
     place = np.empty(len(table), np.int64)
@@ -173,8 +188,8 @@ def _linear_coordinates(dim: int, corners: int) -> Any:
 
 
 def _tags_in_dolfinx(mesh: Any, dim: int, corners: NDArray[np.int64], tags: Int32s) -> Any:
-    """Returns mesh tags of entities of this dimension. Each entity is given on one rank, by the
-    numbers of its nodes."""
+    """Returns mesh tags of entities of a dimension. Each entity is given on one rank by the numbers
+    of its nodes."""
     dolfinx = _package("dolfinx")
     entities, values = dolfinx.cpp.io.distribute_entity_data(mesh._mesh, dim, corners, tags)
     mesh.topology.create_connectivity(dim, 0)

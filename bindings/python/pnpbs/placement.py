@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Placements: the nodes in a domain, and how they are computed."""
+"""Placements: the nodes in a domain, and the runs that compute them."""
 
 from __future__ import annotations
 
@@ -29,29 +29,38 @@ from .voronoi import Tessellation
 
 
 class Estimate(NamedTuple):
+    """An estimate of a run: number of nodes on all ranks, bytes of memory of each process, and
+    seconds."""
+
     nodes: int
     bytes: int
     seconds: float
 
 
 class PopulationChange(NamedTuple):
+    """Numbers of inserted and deleted nodes on all ranks."""
+
     inserted: int
     deleted: int
 
 
 def _keep_going(fraction: float, step: int, nodes: int, max_speed: float) -> bool:
+    """A monitor that does not stop the run."""
     return False
 
 
 class Placement(Results, Fields, Meshes, Tessellation):
-    """A placement of nodes in a domain, on the domain's context. Keywords are options, as in `set`;
-    the others are those of the context. Set a spacing (`set_spacing`), then `run`. Collective.
+    """A placement of nodes in a domain, on the context of the domain. Set a spacing with
+    `set_spacing`, then call `run`. The creation is collective.
 
-    Ctrl-C ends a computation within a second or two with a `KeyboardInterrupt`; the nodes are then
-    as if a monitor had stopped the run, which is what it returns on the other ranks.
+    - `domain`: the domain, which is read when the placement is initialised.
+    - `**options`: options by name, as in `set`. Other options have the values of the context.
 
-    `initialise`, `run` and `step` issue the library's warnings as Python's, each once: classes
-    derived from `PNPBSWarning`, such as `SpacingWarning`. On several ranks all issue them."""
+    Ctrl-C ends a computation within a second or two with a `KeyboardInterrupt`. The nodes are then
+    those of a run that a monitor has stopped, and the other ranks return `Status.STOPPED`.
+
+    `initialise`, `run` and `step` issue the warnings of the library as warnings of Python, each
+    once, on all ranks. Their classes derive from `PNPBSWarning`, such as `SpacingWarning`."""
 
     def __init__(self, domain: Domain, **options: OptionValue) -> None:
         super().__init__()
@@ -63,9 +72,8 @@ class Placement(Results, Fields, Meshes, Tessellation):
         self._handle = handle.value
         self.context._children.append(self)
         self._warned: Set[str] = set()
-        # These are kept alive because the library holds their addresses. The current nodes refer to
-        # the spacing that they were placed with, so a replaced spacing is needed until the next
-        # run.
+        # The library holds the addresses of callbacks, so they must live. The current nodes refer
+        # to the spacing with which they were placed, so a replaced one lives until the next run.
         self._spacing: Any = None
         self._spacings_before: List[Any] = []
         self._monitor: Any = None
@@ -78,7 +86,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
             raise
 
     def close(self) -> None:
-        """Releases the resources of the library. Closing twice is allowed. Local."""
+        """Releases the resources of the library. Repeated calls have no effect. Local."""
         if self.is_open:
             self.context._check(self._destroy(library().pnpbs_placement_destroy))
             self.context._children.remove(self)
@@ -88,33 +96,39 @@ class Placement(Results, Fields, Meshes, Tessellation):
             return "<pnpbs.Placement, closed>"
         return f"<pnpbs.Placement, {self.dim}D, {counted(self.node_count, 'node')} on this rank>"
 
-    # ------------------------------------------------------------ what is wanted ---------------
+    # ------------------------------------------------------------ settings ---------------------
 
     def set(self, **options: OptionValue) -> Placement:
-        """Sets options by name, as in `placement.set(steps=60, method="paper")`. Local. Unknown names
-        and values out of range raise a `PNPBSError` that names the nearest option or the range.
-        `pnpbs.option_table()` lists them."""
+        """Sets options by name, as in `placement.set(steps=60, method="paper")`, and returns the
+        placement. `pnpbs.option_table()` lists the options. Local.
+
+        Raises `Status.ERROR_KEY` for an unknown name, with the nearest known one, and
+        `Status.ERROR_ARGUMENT` for a value out of range, with the range."""
         for key, value in options.items():
             self.context._check(_set_option("placement", self._live(), key, value))
         return self
 
     def set_spacing(self, d: Union[ArrayFunction, ArrayLike], origin: Optional[ArrayLike] = None,
                     step: Optional[ArrayLike] = None) -> Placement:
-        """Sets the node spacing d(x), the requested distance between neighbouring nodes near x. On
-        a placement that has nodes it replaces the spacing: the nodes are kept, and the next run
-        starts from them. Collective.
+        """Sets the spacing d(x), the requested distance between neighbouring nodes near x, and
+        returns the placement. If the placement has nodes, it keeps them, and the next run starts
+        from them. Collective.
 
-        - A number: constant spacing.
-        - A function: `d(x)` gets points, (n, dim), and returns n values. It must always return the
-          same value for the same point. It is called with different points on different ranks, so
-          it must do nothing collective. An exception that it raises is raised by the call in
-          progress.
-        - An array of `dim` dimensions with `origin` and `step`: values on a rectangular grid whose
-          first point is `origin`, with distances `step`; the first index goes along x. Linear
-          between grid points, constant beyond the grid's edge. On a sphere the grid has two
-          dimensions, longitude and latitude in degrees; columns all around are joined.
-        - An array of one dimension: values at the nodes of this rank, in the order of `nodes`;
-          linear on each triangle or tetrahedron of their triangulation."""
+        - `d`: a number is a constant spacing.
+        - `d`: a function `d(x)` receives points of shape (n, dim) and returns n values. It must be
+          pure. Ranks call it with different points, so it must do nothing collective. The placement
+          keeps it. An exception that it raises is raised by the call in progress.
+        - `d`: an array of `dim` dimensions, with `origin` and `step`, has the values on a
+          rectangular grid; the first index runs along x. The spacing is linear between grid points
+          and constant beyond the edge. On a sphere the grid has two dimensions, longitude and
+          latitude in degrees; columns all around the sphere are joined.
+        - `d`: an array of one dimension has the values at the nodes of this rank, in the order of
+          `nodes`. The spacing is linear on each triangle or tetrahedron of their triangulation.
+        - `origin`: the first point of the grid.
+        - `step`: distance between grid points in each direction, greater than 0.
+
+        Arrays are copied. Raises `Status.ERROR_SPACING` for values that are zero, negative or not
+        finite; those of a function raise in `initialise` or `run`."""
         callback = None
         if callable(d):
             callback = spacing_callback(d, self.context)
@@ -130,54 +144,75 @@ class Placement(Results, Fields, Meshes, Tessellation):
             raise ValueError(f"d has shape {np.shape(d)}: values at nodes have one dimension, and "
                              "values on a grid come with origin and step")
         else:
-            # The library checks the length, as it reports an error to all ranks.
+            # The library checks the length, because it reports errors on all ranks.
             values = np.ascontiguousarray(d, np.float64).reshape(-1)
             self._call("set_spacing_at_nodes", len(values), values)
         return self._keep_spacing(callback)
 
     def _keep_spacing(self, callback: Any) -> Placement:
+        """Keeps the callback of the current spacing alive, and those of earlier ones until the next
+        run."""
         if self._spacing is not None:
             self._spacings_before.append(self._spacing)
         self._spacing = callback
         return self
 
     def set_spacing_mesh(self, points: ArrayLike, d: ArrayLike, corners: ArrayLike) -> Placement:
-        """Sets the spacing to values `d` at the nodes of a background mesh, the rows of `points`.
-        It is linear on each element, and beyond the mesh equal to the value at the nearest point of
-        the mesh. `corners` is (m, dim + 1), on a sphere (m, 3), indices of rows: triangles, in
-        space tetrahedra. Collective; every rank passes the same arrays, and holds a copy."""
+        """Sets the spacing to values at the nodes of a background mesh, and returns the placement.
+        It is linear on each element. Beyond the mesh it is equal to the value at the nearest point
+        of the mesh. Every rank passes the same arrays and stores a copy. Collective.
+
+        - `points`: the nodes of the mesh, of shape (n, dim).
+        - `d`: n values.
+        - `corners`: indices of nodes, from 0: triangles, of shape (m, 3), in the plane and on a
+          sphere, tetrahedra, of shape (m, 4), in space.
+
+        Raises `Status.ERROR_SPACING` for values that are zero, negative or not finite, and
+        `Status.ERROR_ARGUMENT` for an index out of range, a flat element, or arrays that differ
+        between ranks."""
         coordinates, values = self._field(points, d)
         elements = as_indices(corners, self._extent_of_elements + 1, "corners")
         self._call("set_spacing_mesh", len(values), coordinates, values, len(elements), elements)
         return self._keep_spacing(None)
 
     def set_spacing_points(self, points: ArrayLike, d: ArrayLike) -> Placement:
-        """Sets the spacing to values `d` at scattered points, the rows of `points`. It equals the
-        given value at each point and elsewhere a weighted mean of the values of the 8 (in space 16)
-        nearest points, of which those behind others count less or not at all; on a sphere, with
-        ways along it. Collective; every rank passes the same arrays, and holds a copy."""
+        """Sets the spacing to values at scattered points, and returns the placement. It equals the
+        given value at each point. Elsewhere it is a weighted mean of the values of the 8 (in space
+        16) nearest points, in which points behind others count less or not at all. On a sphere
+        distances are along it. Every rank passes the same arrays and stores a copy. Collective.
+
+        - `points`: the points, of shape (n, dim).
+        - `d`: n values.
+
+        Raises `Status.ERROR_SPACING` for values that are zero, negative or not finite, and for
+        coincident points with different values."""
         coordinates, values = self._field(points, d)
         self._call("set_spacing_points", len(values), coordinates, values)
         return self._keep_spacing(None)
 
     def set_spacing_file(self, path: Path, field: Optional[str] = None) -> Placement:
-        """Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's
-        mesh with values at nodes (.msh), or a table with columns x, y, (z) and others (.csv).
-        Triangles and quadrangles, in space tetrahedra, form a mesh as in `set_spacing_mesh`;
-        without any, the points are used as in `set_spacing_points`. In the plane z is ignored; on a
-        sphere elements are as in the plane.
-        `field` is the name of the values in the file; the default is the only ones, or those called
-        "spacing". Collective; every rank reads the file."""
+        """Sets the spacing to values at points from a file, and returns the placement. Every rank
+        reads the file. Collective.
+
+        - `path`: an unstructured grid of VTK (.vtu), a mesh of Gmsh with values at nodes (.msh), or
+          a table with columns x, y, (z) and others (.csv). Triangles and quadrangles, in space
+          tetrahedra, form a mesh as in `set_spacing_mesh`; on a sphere elements are those of the
+          plane. Without elements the points are used as in `set_spacing_points`. In the plane z is
+          ignored.
+        - `field`: the name of the values in the file. By default it is the only name, or "spacing".
+
+        Raises `Status.ERROR_FILE` for a file that cannot be read, and for a missing field."""
         self._call("set_spacing_file", os.fsencode(path),
                    None if field is None else field.encode())
         return self._keep_spacing(None)
 
     @property
     def _extent_of_elements(self) -> int:
-        """2 for triangles, also on a sphere."""
+        """The dimension of elements of a background mesh: 2 for triangles, also on a sphere."""
         return 2 if self.sphere_radius > 0 else self.dim
 
     def _field(self, points: ArrayLike, d: ArrayLike) -> Tuple[Doubles, Doubles]:
+        """Converts points and values. Raises ValueError for wrong shapes."""
         coordinates = as_points(points, self.dim, "points")
         values = np.ascontiguousarray(d, np.float64)
         if values.shape != (len(coordinates),):
@@ -187,41 +222,48 @@ class Placement(Results, Fields, Meshes, Tessellation):
     def set_spacing_from_shape(self, nodes_per_turn: float = 0.0, nodes_across: float = 0.0,
                                nodes_per_edge: float = 0.0, growth: float = 0.0,
                                min_spacing: float = 0.0, max_spacing: float = 0.0) -> Placement:
-        """Sets the spacing from the shape of the domain: the minimum of what its curves and
-        surfaces require, each value growing with the distance from them by `growth` (0: 0.15),
-        between `min_spacing` and `max_spacing` (0: no bound). Collective.
+        """Sets the spacing from the shape of the domain, and returns the placement. It is the
+        minimum of the values that curves and surfaces require, each growing with the distance from
+        them. Collective.
 
-        - `nodes_per_turn`, by curvature: nodes on a full circle of the radius of curvature.
-        - `nodes_across`, by width: d at a boundary point is the diameter of the largest ball that
-          touches the boundary there and meets nothing ahead, divided by this.
-        - `nodes_per_edge`, by the input: d is the length of a segment, or the mean edge length of a
-          triangle, divided by this.
+        - `nodes_per_turn`: by curvature: number of nodes on a full circle of the radius of
+          curvature.
+        - `nodes_across`: by width: at a boundary point, d is the diameter of the largest ball that
+          touches the boundary there and meets no other part of it ahead, divided by this number.
+        - `nodes_per_edge`: by the input: d is the length of a segment, or the mean edge length of a
+          triangle, divided by this number.
+        - `growth`: growth of d per distance; 0 stands for 0.15.
+        - `min_spacing`, `max_spacing`: bounds of d; 0 stands for no bound.
 
-        Zero arguments are not used."""
+        The first three are not used if they are 0. Raises `Status.ERROR_DOMAIN` if the domain is
+        invalid, and `Status.ERROR_ARGUMENT` for negative numbers."""
         self._call("set_spacing_from_shape", nodes_per_turn, nodes_across, nodes_per_edge, growth,
                    min_spacing, max_spacing)
         return self._keep_spacing(None)
 
     def _set_spacing_grid(self, d: ArrayLike, origin: Optional[ArrayLike],
                           step: Optional[ArrayLike]) -> None:
+        """Sets the spacing to values on a grid."""
         directions = self._extent_of_elements
         if np.ndim(d) != directions:
             raise ValueError(f"d has shape {np.shape(d)}; an array of {directions} dimensions was "
                              "expected")
         if origin is None or step is None:
             raise ValueError("values on a grid take both an origin and a step")
-        # The first index of the library varies fastest.
+        # In the library the first index runs fastest.
         values = np.ascontiguousarray(np.asarray(d, np.float64).T)
         self._call("set_spacing_grid", np.array(np.shape(d), np.int64),
                    as_point(origin, directions, "origin"), as_point(step, directions, "step"),
                    values)
 
     def set_monitor(self, monitor: Optional[Monitor]) -> Placement:
-        """Calls `monitor(fraction, step, nodes, max_speed)` from time to time during a run. While
-        the first nodes are laid, or the growth of the spacing is limited, `fraction` is 0 and each
-        rank calls it by its own clock: do nothing collective then. When it returns True, the run
-        ends early with valid nodes and `Status.STOPPED`. None removes the monitor. Local."""
-        # The library keeps a monitor, because Ctrl-C takes effect in it.
+        """Sets a function `monitor(fraction, step, nodes, max_speed)` that is called from time to
+        time during a run, and returns the placement. If it returns True, the run ends early with
+        valid nodes and `Status.STOPPED`. `fraction` is the completed part of the call in progress,
+        from 0 to 1, and `max_speed` is in spacings per unit time. While the first nodes are laid,
+        or the growth of the spacing is limited, `fraction` is 0 and each rank calls the monitor by
+        its own clock, so it must do nothing collective then. None removes the monitor. Local."""
+        # The library always has a monitor, because Ctrl-C takes effect there.
         callback = monitor_callback(_keep_going if monitor is None else monitor, self.context)
         self._call("set_monitor", callback, None)
         self._monitor, self._monitor_function = callback, monitor
@@ -229,7 +271,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     @contextlib.contextmanager
     def _progress_shown(self) -> Iterator[None]:
-        """Shows a progress bar in the block, in addition to the monitor that is set."""
+        """Shows a progress bar inside the block, in addition to the monitor that is set."""
         before = self._monitor_function
         with ProgressBar() as bar:
 
@@ -255,14 +297,20 @@ class Placement(Results, Fields, Meshes, Tessellation):
         return self
 
     def set_nodes(self, coordinates: ArrayLike, ids: Optional[ArrayLike] = None) -> Placement:
-        """Sets inner nodes to start from instead of the initial fill: the rows of `coordinates`, on
-        any ranks, with distinct global ids from 0 if `ids` are given. The library places the
-        boundary nodes. Clears the current nodes. Collective."""
+        """Sets inner nodes from which the simulation starts instead of the initial fill, and
+        returns the placement. The library places the boundary nodes. The current nodes are removed.
+        Collective.
+
+        - `coordinates`: points of shape (n, dim), anywhere in the domain, different ones on each
+          rank. They are copied. Points outside the domain or too close to its boundary are dropped.
+        - `ids`: n distinct global ids from 0, or None for ids that the library chooses.
+
+        Raises ValueError if the number of ids differs from that of points."""
         points = as_points(coordinates, self.dim, "coordinates")
         given = None if ids is None else np.ascontiguousarray(ids, np.int64)
         wrong = None if given is None or given.shape == (len(points),) else given.shape
-        # If the number of ids is wrong on one rank, the library gets a number of -1. The other
-        # ranks, which would wait otherwise, then get an error too.
+        # If the number of ids is wrong on one rank, an invalid call informs the library and thus
+        # the other ranks, which otherwise block.
         code = library().pnpbs_placement_set_nodes(self._live(), len(points) if wrong is None else -1,
                                                    points, given)
         if wrong is not None:
@@ -273,27 +321,36 @@ class Placement(Results, Fields, Meshes, Tessellation):
     # ------------------------------------------------------------ running ----------------------
 
     def estimate(self) -> Estimate:
-        """Estimates a run from scratch, from domain, spacing and options alone: the number of nodes
-        on all ranks, mostly within a few percent, the memory of each process for the run alone, and
-        roughly the time in seconds. Collective."""
+        """Estimates a run from scratch, from domain, spacing and options alone. Returns the number
+        of nodes on all ranks, mostly within a few percent, the memory in bytes of each process for
+        the run alone, and the approximate time in seconds. The current nodes do not change.
+        Collective."""
         nodes, size, seconds = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_double()
         self._call("estimate", ctypes.byref(nodes), ctypes.byref(size), ctypes.byref(seconds))
         return Estimate(nodes.value, size.value, seconds.value)
 
     def initialise(self) -> Placement:
-        """Checks domain and spacing and lays the nodes that the simulation starts from. `run` and
-        `step` do this if necessary. Collective."""
+        """Checks domain and spacing, lays the nodes from which the simulation starts, and returns
+        the placement. `run` and `step` do this if necessary. Collective.
+
+        Raises `Status.ERROR_DOMAIN` or `Status.ERROR_SPACING` for an invalid domain or spacing, and
+        `Status.ERROR_MEMORY` if the nodes that d requires do not fit into memory."""
         self._call("initialise")
         self._warned.clear()
         self._warn()
         return self
 
     def run(self, progress: bool = False) -> Status:
-        """Runs the whole placement. A later run, for example after another spacing, starts from the
-        current nodes. See `Status` for the outcomes. Collective.
+        """Runs the whole placement and returns its outcome (see `Status`). It initialises if
+        necessary, simulates until the bubbles are at rest or the option `steps` is reached, and
+        finishes. A later run, for example with another spacing, starts from the current nodes.
+        Collective.
 
-        With `progress` a bar shows how far it is: tqdm's, if that is installed, otherwise one of
-        text, on standard error. On several ranks, give it on one: `progress=comm.rank == 0`."""
+        - `progress`: whether to show a progress bar on standard error: that of tqdm, or one of text
+          if tqdm is not installed. On several ranks, set it on one of them: `progress=comm.rank ==
+          0`.
+
+        Raises the errors of `initialise`."""
         with self._progress_shown() if progress else contextlib.nullcontext():
             outcome = self._call("run")
         self._spacings_before.clear()
@@ -301,8 +358,9 @@ class Placement(Results, Fields, Meshes, Tessellation):
         return outcome
 
     def step(self, n: int = 1) -> Status:
-        """Advances the simulation by n steps. The outcome is as in `run`, `Status.OK` if the
-        bubbles are at rest. Collective."""
+        """Advances the simulation by n steps. Initialises if necessary. Returns `Status.OK` if the
+        bubbles are at rest, `Status.NOT_CONVERGED` if they still move, or `Status.STOPPED`.
+        Collective."""
         outcome = self._call("step", n)
         self._warn()
         return outcome
@@ -316,13 +374,15 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
     def adjust_population(self) -> PopulationChange:
         """Performs one population adjustment: deletes nodes where they are too dense and inserts
-        nodes where they are too sparse. Collective."""
+        nodes where they are too sparse. Initialises if necessary. Returns the numbers of inserted
+        and deleted nodes. Collective."""
         inserted, deleted = ctypes.c_int64(), ctypes.c_int64()
         self._call("adjust_population", ctypes.byref(inserted), ctypes.byref(deleted))
         return PopulationChange(inserted.value, deleted.value)
 
     def rebalance(self) -> Placement:
-        """Repartitions the work over the ranks. The nodes are unchanged; their owners change. A run
-        does this by itself where it pays. Collective."""
+        """Repartitions the work over the ranks and returns the placement. The nodes do not change,
+        but their owners and the ghosts do. A run repartitions by itself if the imbalance exceeds
+        the option `rebalance_above`. Collective."""
         self._call("rebalance")
         return self

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The base through which the parts of `Placement` call the library."""
+"""The base class through which the parts of `Placement` call the library."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from .errors import Status
 
 
 class PlacementHandle(Handle):
-    """The library's handle of a placement and the context that it was made on."""
+    """A handle of a placement in the library, with its context."""
 
     context: Context
 
     def _call(self, name: str, *arguments: Any) -> Status:
+        """Calls the function pnpbs_placement_<name> and returns its status. Raises the exception of
+        a callback, or `PNPBSError`."""
         function = getattr(library(), f"pnpbs_placement_{name}")
         with signals_kept_in(self.context):
             code = function(self._live(), *arguments)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Results of a placement, copied once into arrays of the caller. Local indices count this rank's
-nodes from 0, then its ghosts; global ids are those of the library, the same for any number of
-ranks."""
+"""Results of a placement, which are copied into new arrays. Local indices count the nodes of this
+rank from 0, followed by its ghosts. Global ids do not depend on the number of ranks."""
 
 from __future__ import annotations
 
@@ -23,6 +22,13 @@ from .tables import statistic_table
 
 
 class Nodes(NamedTuple):
+    """Nodes of a rank.
+
+    - `points`: positions, of shape (n, dim).
+    - `ids`: global ids.
+    - `tags`: 0 for inner nodes, otherwise the tag of the curve, surface or fixed node.
+    - `spacing`: d at the nodes."""
+
     points: Doubles
     ids: Ids
     tags: Int32s
@@ -33,6 +39,9 @@ class Nodes(NamedTuple):
 
 
 class Ghosts(NamedTuple):
+    """Ghosts of a rank: points, ids, tags and spacing as in `Nodes`, and the ranks that own
+    them."""
+
     points: Doubles
     ids: Ids
     tags: Int32s
@@ -44,6 +53,9 @@ class Ghosts(NamedTuple):
 
 
 class ExchangePattern(NamedTuple):
+    """A halo exchange pattern: the neighbouring ranks, and a row of nodes to send and of ghosts to
+    receive for each of them."""
+
     ranks: Int32s
     send: CompressedRows[np.int64]
     receive: CompressedRows[np.int64]
@@ -53,8 +65,11 @@ class ExchangePattern(NamedTuple):
 
 
 class Numbering(NamedTuple):
+    """Numbers that are contiguous per rank: that of the first node of this rank, the number of its
+    nodes, and the numbers of its ghosts."""
+
     first: int
-    count: int  # type: ignore[assignment]  # not what tuple.count is
+    count: int  # type: ignore[assignment]  # hides tuple.count
     ghosts: Ids
 
     def __repr__(self) -> str:
@@ -62,6 +77,9 @@ class Numbering(NamedTuple):
 
 
 class Stars(NamedTuple):
+    """Delaunay stars: rows of neighbours, and for each neighbour whether it forms a triangle with
+    the node and the next neighbour."""
+
     neighbours: CompressedRows[np.int64]
     triangle: CompressedRows[np.bool_]
 
@@ -70,6 +88,8 @@ class Stars(NamedTuple):
 
 
 class Facets(NamedTuple):
+    """Facets: local indices of their corners, of shape (n, corners), and their tags."""
+
     corners: Ids
     tags: Int32s
 
@@ -78,6 +98,9 @@ class Facets(NamedTuple):
 
 
 class EdgeBands(NamedTuple):
+    """Statistics of edges by bands of d: ends of the bands, numbers of edges, and mean and standard
+    deviation of edge length over d."""
+
     d_from: Doubles
     d_to: Doubles
     edges: Ids
@@ -86,6 +109,9 @@ class EdgeBands(NamedTuple):
 
 
 class CellBands(NamedTuple):
+    """Statistics of Voronoi cells by bands of d: ends of the bands, numbers of cells or edges, the
+    mean, and the worst value."""
+
     d_from: Doubles
     d_to: Doubles
     number: Ids
@@ -100,6 +126,7 @@ class Results(PlacementHandle):
     """The part of `Placement` that copies and writes results."""
 
     def _number(self, name: str, c_type: Any, *arguments: Any) -> Any:
+        """Returns the number that a function of the library stores through its last argument."""
         number = c_type()
         self._call(name, *arguments, ctypes.byref(number))
         return number.value
@@ -108,12 +135,13 @@ class Results(PlacementHandle):
 
     @property
     def dim(self) -> int:
-        """The dimension of the domain: 2 or 3. Local."""
+        """The dimension of points: 2 in the plane, 3 in space and on a sphere. Local."""
         return int(self._number("dimension", ctypes.c_int32))
 
     @property
     def sphere_radius(self) -> float:
-        """The radius of the sphere that the nodes lie on; 0 if the domain is not on one. Local."""
+        """The radius of the sphere on which the nodes lie, or 0 if the domain is not on a sphere.
+        Local."""
         return float(self._number("sphere_radius", ctypes.c_double))
 
     @property
@@ -122,9 +150,9 @@ class Results(PlacementHandle):
         return int(self._number("count", ctypes.c_int64))
 
     def nodes(self) -> Nodes:
-        """Returns the nodes of this rank in their local order: `points` is (n, dim); `ids` are
-        global; `tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node;
-        `spacing` is d at the node. Local."""
+        """Returns a copy of the nodes of this rank, in their local order. `points` has the shape
+        (n, dim). `ids` are global. `tags` are 0 for inner nodes and otherwise that of the curve,
+        surface or fixed node. `spacing` is d at the nodes. Local."""
         n = self.node_count
         found = Nodes(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
                       np.zeros(n))
@@ -132,28 +160,29 @@ class Results(PlacementHandle):
         return found
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws the nodes of this rank, each in the colour of its tag, on `ax` or a new canvas, which
-        it returns: axes of Matplotlib in the plane, in space a plotter of PyVista, or axes of
-        Matplotlib where there is no PyVista. Local."""
+        """Draws the nodes of this rank on `ax`, or on a new canvas if it is None, each in the
+        colour of its tag, and returns the canvas. It uses Matplotlib in the plane, and PyVista in
+        space, or Matplotlib if PyVista is not installed. Local."""
         nodes = self.nodes()
         return plot_nodes(nodes.points, nodes.tags, ax)
 
     def normals(self) -> Doubles:
-        """Returns the surface normals at this rank's nodes, of a placement in space: (n, 3), the
-        unit normal, on feature edges and in corners the mean of the adjacent normals, and 0 for
-        inner nodes. Local."""
+        """Returns the surface normals at the nodes of this rank, of shape (n, 3), for a placement
+        in space. They are unit normals. On feature edges and in corners they are means of the
+        adjacent normals. They are 0 at inner nodes. Local."""
         found = np.zeros((self.node_count, 3))
         self._call("get_normals", len(found), found)
         return found
 
     def ghost_count(self) -> int:
-        """The number of ghosts: nodes of other ranks that this rank sees near its own.
+        """Returns the number of ghosts: nodes of other ranks close to those of this rank.
         Collective."""
         return int(self._number("ghost_count", ctypes.c_int64))
 
     def ghosts(self) -> Ghosts:
-        """Returns the ghosts, by increasing id; `owners` are the ranks that own them. In lists,
-        stars, triangles and tetrahedra ghost g has the local index `node_count + g`. Collective."""
+        """Returns a copy of the ghosts in the order of their ids. `owners` are the ranks that own
+        them. In lists, stars, triangles and tetrahedra, ghost g has the local index `node_count +
+        g`. Collective."""
         n = self.ghost_count()
         found = Ghosts(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
                        np.zeros(n), np.zeros(n, np.int32))
@@ -161,9 +190,9 @@ class Results(PlacementHandle):
         return found
 
     def exchange_pattern(self) -> ExchangePattern:
-        """Returns the pattern by which values at nodes reach their ghosts on other ranks: send the
-        values at the nodes `send[k]` to `ranks[k]`, and store what it sends at `receive[k]`, in the
-        same order. Valid until nodes move. Collective."""
+        """Returns the halo exchange pattern: send the values at the nodes `send[k]` to `ranks[k]`,
+        and store the values received from it at `receive[k]`, in the same order. The pattern is
+        valid until nodes move. Collective."""
         neighbours, sends, receives = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
         self._call("exchange_sizes", ctypes.byref(neighbours), ctypes.byref(sends),
                    ctypes.byref(receives))
@@ -176,9 +205,9 @@ class Results(PlacementHandle):
         return ExchangePattern(ranks, send, receive)
 
     def numbering(self) -> Numbering:
-        """Returns numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre
-        require: local node i has the number `first + i`, and ghost g has `ghosts[g]`. Unlike the
-        ids they depend on the ranks. Collective."""
+        """Returns numbers that are contiguous per rank and start from 0 over all ranks, as PETSc
+        and hypre require. Local node i has the number `first + i`, and ghost g has `ghosts[g]`.
+        Unlike ids they depend on the partition. Collective."""
         first, count = ctypes.c_int64(), ctypes.c_int64()
         numbers = np.zeros(self.ghost_count(), np.int64)
         self._call("get_numbering", len(numbers), ctypes.byref(first), ctypes.byref(count), numbers)
@@ -187,20 +216,21 @@ class Results(PlacementHandle):
     # ------------------------------------------------------------ lists and elements -----------
 
     def adjacency(self) -> CompressedRows[np.int64]:
-        """Returns the adjacency lists: row i has the local indices of the nodes within
-        `adjacency_radius` of node i, in the order of global ids. Pairs separated by a boundary are
-        not neighbours. Collective."""
+        """Returns the adjacency lists: row i has the local indices of all nodes within
+        `adjacency_radius` times the mean spacing of the pair, in the order of global ids. Pairs
+        separated by a boundary are not neighbours. Collective."""
         entries = self._number("adjacency_size", ctypes.c_int64)
         rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
         self._call("get_adjacency", entries, rows.offsets, rows.values)
         return rows
 
     def stars(self) -> Stars:
-        """Returns each node's star in the constrained Delaunay triangulation of the domain.
-        `neighbours[i]` has the local indices of node i's neighbours, counter-clockwise;
-        `triangle[i][k]` is whether the node, its k-th neighbour and the next one around are a
-        triangle of the domain, or whether a gap lies between them. In space the neighbours are all
-        nodes that share a tetrahedron with node i, and `triangle[i][k]` is False. Collective."""
+        """Returns the star of each node in the constrained Delaunay triangulation of the domain.
+        `neighbours[i]` has the local indices of the neighbours of node i, counter-clockwise.
+        `triangle[i][k]` is True if the node, its k-th neighbour and the next one around form a
+        triangle of the domain, and False if a gap outside the domain lies between them. In space
+        the neighbours are all nodes that share a tetrahedron with node i, and `triangle[i][k]` is
+        False. Collective."""
         entries = self._number("star_size", ctypes.c_int64)
         rows = CompressedRows(np.zeros(self.node_count + 1, np.int64), np.zeros(entries, np.int64))
         triangle = np.zeros(entries, np.int8)
@@ -209,20 +239,20 @@ class Results(PlacementHandle):
 
     def triangles(self) -> Ids:
         """Returns the triangles of a placement in the plane or on a sphere, (n, 3) local indices,
-        counter-clockwise, on a sphere as seen from outside, each once: a triangle belongs to the
-        rank that owns its node with the lowest id; other corners may be ghosts. Collective."""
+        each once, counter-clockwise, on a sphere as seen from outside. A triangle belongs to the
+        rank that owns its node with the lowest id; its other corners may be ghosts. Collective."""
         return self._elements("get_triangles", 3)
 
     def tetrahedra(self) -> Ids:
-        """Returns the tetrahedra of a placement in space, (n, 4) local indices, each once: seen
-        from the fourth corner, the first three turn counter-clockwise. A tetrahedron belongs to the
-        rank that owns its node with the lowest id; other corners may be ghosts. Collective."""
+        """Returns the tetrahedra of a placement in space, (n, 4) local indices, each once. Seen
+        from the fourth corner, the first three are counter-clockwise. A tetrahedron belongs to the
+        rank that owns its node with the lowest id; its other corners may be ghosts. Collective."""
         return self._elements("get_tetrahedra", 4)
 
     def element_tags(self) -> Int32s:
-        """Returns the tag of each element: that of the region it lies in (`Domain.add_region`), or
-        0 if the region has none. The order is that of `triangles`, in space that of `tetrahedra`.
-        On surfaces alone it raises `Status.ERROR_ARGUMENT`. Collective."""
+        """Returns the tag of each element, which is that of its region (`Domain.add_region`), or 0
+        if the region has none. The order is that of `triangles`, in space that of `tetrahedra`.
+        Raises `Status.ERROR_ARGUMENT` on surfaces alone. Collective."""
         count = ctypes.c_int64()
         self._call("get_element_tags", 0, ctypes.byref(count), None)
         tags = np.zeros(count.value, np.int32)
@@ -230,13 +260,14 @@ class Results(PlacementHandle):
         return tags
 
     def incident_elements(self) -> Ids:
-        """Returns every element with a corner among this rank's nodes, whichever rank it belongs
-        to: triangles in the plane, (n, 3) local indices, tetrahedra in space, (n, 4), triangles on
-        surfaces alone. With these a rank assembles the rows of its nodes without communication. The
-        corner with the lowest id comes first; an element belongs to this rank, as defined by
-        `triangles` and `tetrahedra`, if that is one of its nodes. Elements are in the order of the
-        ids of their corners, so those of a node are the same, in the same order, for any number of
-        ranks, and a row summed in this order has the same bits. Collective."""
+        """Returns every element with a corner among the nodes of this rank, also those that belong
+        to other ranks: triangles in the plane and on surfaces alone, (n, 3) local indices, or
+        tetrahedra in space, (n, 4). With these a rank assembles the rows of its nodes without
+        communication. The corner with the lowest id comes first. An element belongs to this rank,
+        as defined by `triangles` and `tetrahedra`, if its first corner is one of the nodes of the
+        rank. Elements are in the order of the ids of their corners, so those of a node are the
+        same, in the same order, for any number of ranks. A row that is summed in this order always
+        has the same bits. Collective."""
         count, corners = ctypes.c_int64(), ctypes.c_int32()
         sizes = ctypes.byref(count), ctypes.byref(corners)
         self._call("get_incident_elements", 0, *sizes, None)
@@ -247,16 +278,18 @@ class Results(PlacementHandle):
     def boundary_edges(self) -> Facets:
         """Returns the edges between consecutive nodes on boundary and inner curves of a placement
         in the plane or on a sphere: (n, 2) local indices, and the tags of the curves. An edge
-        belongs to the rank that owns its first node. Local."""
+        belongs to the rank that owns its first node; the other one may be a ghost. Local."""
         return self._facets("get_boundary_edges", 2)
 
     def boundary_triangles(self) -> Facets:
         """Returns the boundary triangles of a placement in space: (n, 3) local indices,
         counter-clockwise as seen from outside, and the tags of the surfaces there. On surfaces
-        alone, they are the triangles between the nodes. Collective."""
+        alone, they are the triangles between the nodes. A triangle belongs to the rank that owns
+        its node with the lowest id. Collective."""
         return self._facets("get_boundary_triangles", 3)
 
     def _elements(self, name: str, corners: int) -> Ids:
+        """Copies elements with so many corners."""
         count = ctypes.c_int64()
         self._call(name, 0, ctypes.byref(count), None)
         found = np.zeros((count.value, corners), np.int64)
@@ -264,6 +297,7 @@ class Results(PlacementHandle):
         return found
 
     def _facets(self, name: str, corners: int) -> Facets:
+        """Copies facets with so many corners."""
         count = ctypes.c_int64()
         self._call(name, 0, ctypes.byref(count), None, None)
         found = Facets(np.zeros((count.value, corners), np.int64), np.zeros(count.value, np.int32))
@@ -271,24 +305,26 @@ class Results(PlacementHandle):
         return found
 
     def check(self) -> Status:
-        """Checks the invariants of the results. `Status.NOT_CONFORMING` where `run` returns it,
-        too; if anything else is wrong, a `PNPBSError` with `Status.ERROR_INTERNAL` says what, with
-        ids and coordinates. Collective."""
+        """Checks the invariants of the results. Returns `Status.OK`, or `Status.NOT_CONFORMING`
+        where `run` does, too. Raises `Status.ERROR_INTERNAL` if anything else is wrong, with ids
+        and coordinates. Collective."""
         return self._call("check")
 
     # ------------------------------------------------------------ statistics -------------------
 
     def statistic(self, key: str) -> Any:
-        """Returns a statistic by its name, such as "nodes", "hash" or "imbalance": an int, a float
-        or a str. `pnpbs.statistic_table()` lists them. Collective."""
+        """Returns a statistic by its name, such as "nodes", "hash" or "imbalance", as an int, a
+        float or a str. `pnpbs.statistic_table()` lists them. Raises `Status.ERROR_KEY` for an
+        unknown name. Collective."""
         types = {row.name: row.type for row in statistic_table()}
         return self._statistic(key, types.get(key, "real"))
 
     def statistics(self) -> Dict[str, Any]:
-        """Returns all statistics, by name. Collective."""
+        """Returns all statistics as {name: value}. Collective."""
         return {row.name: self._statistic(row.name, row.type) for row in statistic_table()}
 
     def _statistic(self, key: str, kind: str) -> Any:
+        """Returns a statistic with the function for its type."""
         if kind == "integer":
             return self._number("get_int64", ctypes.c_int64, key.encode())
         if kind == "real":
@@ -297,11 +333,11 @@ class Results(PlacementHandle):
 
     def edge_bands(self) -> EdgeBands:
         """Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands
-        of d. There are eight, equal in log d between the smallest and the largest d at the nodes,
-        or one if the largest is less than 1.1 times the smallest. Bands without edges are left out.
-        Returns for each band its lower and upper end, the number of edges, and the mean and
-        standard deviation of their length over d. Edges between two boundary nodes are not counted.
-        Includes all ranks, and is the same on each. Collective."""
+        of d. There are eight bands, equal in log d between the smallest and the largest d at the
+        nodes, or one if the largest is less than 1.1 times the smallest. Bands without edges are
+        left out. Returns for each band its lower and upper end, the number of edges, and the mean
+        and standard deviation of their length over d. Edges between two boundary nodes are not
+        counted. The result includes all ranks and is the same on each. Collective."""
         count = ctypes.c_int64()
         self._call("get_edge_bands", 0, ctypes.byref(count), *[None] * 5)
         n = count.value
@@ -312,16 +348,18 @@ class Results(PlacementHandle):
     def cell_bands(self, measure: str) -> CellBands:
         """Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in
         the plane and on spheres; elsewhere there are no bands. A cell is the polygon of the
-        circumcentres of the triangles around an inner node that is not fixed. `measure` is
-        "edge_ratio", of each cell its shortest edge over its longest; "area_ratio", of each edge
-        between two cells the area of the smaller cell over that of the larger; or "dual_offset",
-        of each edge between two such nodes the distance of its middle from that of the Voronoi edge
-        across it, over its length. Lengths and areas are along the sphere. Returns for each band
-        its lower and upper end, the number of cells or edges, the mean, and the smallest ratio or
-        largest offset. The limits of the bands are those of `edge_bands`, and bands with neither a
-        cell nor an edge are left out, so they are the same for all measures. A cell's d is that of
-        its node, an edge's the mean of d at its ends. Includes all ranks, and is the same on each.
-        Collective."""
+        circumcentres of the triangles around an inner node that is not fixed. Collective.
+
+        - `measure`: "edge_ratio" is the shortest over the longest edge of each cell. "area_ratio"
+          is the smaller over the larger area of the two cells at each edge. "dual_offset" is, for
+          each edge between two such nodes, the distance of its midpoint from that of the Voronoi
+          edge across it, over its length. On spheres, lengths and areas are along the sphere.
+
+        Returns for each band its lower and upper end, the number of cells or edges, the mean, and
+        the smallest ratio or largest offset. The ends of the bands are those of `edge_bands`. Bands
+        with neither a cell nor an edge are left out, so the bands are the same for all measures.
+        The d of a cell is that of its node; the d of an edge is the mean at its ends. The result
+        includes all ranks and is the same on each."""
         count = ctypes.c_int64()
         self._call("get_cell_bands", measure.encode(), 0, ctypes.byref(count), *[None] * 5)
         n = count.value
@@ -330,20 +368,19 @@ class Results(PlacementHandle):
         return bands
 
     def warnings(self) -> List[str]:
-        """Returns warnings about domain and spacing, and about nodes that do not follow the
-        spacing, from the last run. Local."""
+        """Returns the messages of warnings about domain and spacing, and, from the last run, about
+        nodes that do not follow the spacing. Local."""
         count = self._number("warning_count", ctypes.c_int32)
         texts = [self._number("get_warning", ctypes.c_char_p, i) for i in range(count)]
         return [text.decode() for text in texts]
 
     def warning_data(self) -> List[WarningData]:
-        """Returns the same warnings as data, by which programs can decide: a `WarningCode`, the
-        text, how many nodes, edges, triangles or points the warning is about (0: not known), a
-        number that it is about, and the first point that it names; these are None where there is
-        none. Local."""
+        """Returns the same warnings as a list of `WarningData`, for programs that act on them.
+        Local."""
         return [self._warning(i, text) for i, text in enumerate(self.warnings())]
 
     def _warning(self, index: int, text: str) -> WarningData:
+        """Returns the data of a warning."""
         code, count, value = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_double()
         point = np.zeros(3)
         self._call("get_warning_data", index, ctypes.byref(code), ctypes.byref(count),
@@ -356,46 +393,59 @@ class Results(PlacementHandle):
     # ------------------------------------------------------------ files ------------------------
 
     def write(self, *paths: Path, elements: Union[bool, Sequence[bool]] = False) -> Status:
-        """Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` (one for all
-        or one for each), into files whose extensions select the formats (`pnpbs.format_table()`).
-        Several files appear together when all are complete, or not at all. The outcome is
-        `Status.OK`, or `Status.STOPPED` by the monitor, which keeps the old files. Collective."""
+        """Writes the nodes of all ranks into files. Several files appear together when all are
+        complete, or not at all. Collective.
+
+        - `*paths`: the files; their extensions select the formats (`pnpbs.format_table()`). All
+          ranks pass the same.
+        - `elements`: whether to write triangles or tetrahedra as well, one for all files or one for
+          each.
+
+        Returns `Status.OK`, or `Status.STOPPED` if the monitor has stopped the call, which keeps
+        existing files. Raises `Status.ERROR_FILE` with the name of the file, and
+        `Status.ERROR_UNSUPPORTED` if a format requires HDF5 and the library has none."""
         encoded = [os.fsencode(path) for path in paths]
         wanted = np.full(len(paths), elements, np.int32)
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
 
     def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
-        """Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing`
-        in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `$NodeData`, and in .csv as a column
-        `name`, or `name:0`, `name:1` and so on. `values` are (n,) or (n, ...) numbers, up to 9 at
-        each node, those of this rank's nodes in the order of `nodes`; entries after them, for its
-        ghosts, are ignored. They are copied, and belong to the current nodes: once these have
-        moved, `write` raises until `clear_output_fields`. All ranks add the same fields in the same
-        order. A name has 1 to 63 letters, digits, "_" and "-". Local."""
+        """Adds a field of the caller to files that are written afterwards, and returns the
+        placement. The field appears next to `id`, `tag` and `spacing` in .vtu, .pvtu, .vtkhdf and
+        .xdmf, in .msh and .msh2 as `$NodeData`, and in .csv as a column `name`, or `name:0`,
+        `name:1` and so on. All ranks must add the same fields in the same order. Local.
+
+        - `name`: 1 to 63 letters, digits, "_" and "-".
+        - `values`: an array of shape (n,) or (n, ...) with up to 9 numbers at each node, in the
+          order of `nodes`. Entries for ghosts may follow and are ignored. The values are copied.
+          They belong to the current nodes: once these have moved, `write` raises until
+          `clear_output_fields` is called."""
         field = np.atleast_1d(np.ascontiguousarray(values, np.float64))
         components = int(np.prod(field.shape[1:], dtype=np.int64))
         self._call("add_output_field", name.encode(), len(field), components, field)
         return self
 
     def clear_output_fields(self: _Self) -> _Self:
-        """Removes the fields that `add_output_field` has added. Local."""
+        """Removes the fields that `add_output_field` has added, and returns the placement.
+        Local."""
         self._call("clear_output_fields")
         return self
 
     def write_checkpoint(self: _Self, path: Path) -> _Self:
         """Writes a file from which `read_checkpoint` continues, in another process and on any
-        number of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which
-        ParaView opens: name it .vtkhdf. It replaces an existing file once it is complete. May be
-        called from a monitor, on all ranks, in its calls between two steps; in others it raises
-        with `Status.ERROR_STATE`. Collective."""
+        number of ranks, bit for bit as if there was no interruption. The format is VTKHDF, which
+        ParaView opens, so name the file .vtkhdf. It replaces an existing file when it is complete.
+        A monitor may call this function, on all ranks, in its calls between two steps; its other
+        calls raise `Status.ERROR_STATE`. Returns the placement. Raises `Status.ERROR_UNSUPPORTED`
+        without HDF5. Collective."""
         self._call("write_checkpoint", os.fsencode(path))
         return self
 
     def read_checkpoint(self: _Self, path: Path) -> _Self:
-        """Restores a placement from a checkpoint, with the domain, options and spacing of the first
-        run (except a spacing given by values at nodes, which the file contains). The next `run` or
-        `step` does what it would have done there. If it raises, the placement is unchanged.
+        """Restores a placement from a checkpoint. The placement must have the domain, options and
+        spacing of the first run, except a spacing given by values at nodes, which the file
+        contains. The next `run` or `step` does what it would have done where the checkpoint was
+        written. Returns the placement. If the call raises, the placement does not change.
         Collective."""
         self._call("read_checkpoint", os.fsencode(path))
         return self

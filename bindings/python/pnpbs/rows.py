@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of different lengths in one array."""
+"""Compressed rows: rows of different lengths in one array."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ._types import Ids, Scalar
 
 
 class CompressedRows(Sequence["NDArray[Scalar]"], Generic[Scalar]):
-    """Rows stored one after another: row i is `values[offsets[i]:offsets[i + 1]]`, which `rows[i]`
-    returns without a copy. SciPy accepts them as the indices of a sparse matrix:
-    `csr_array((entries, rows.values, rows.offsets))`."""
+    """Rows of different lengths, stored one after another. Row i is `values[offsets[i]:offsets[i +
+    1]]`. `rows[i]` returns it as a view without a copy. SciPy accepts the arrays as the indices of
+    a sparse matrix: `csr_array((entries, rows.values, rows.offsets))`."""
 
     def __init__(self, offsets: Ids, values: NDArray[Scalar]) -> None:
         self.offsets = offsets
@@ -41,7 +41,7 @@ class CompressedRows(Sequence["NDArray[Scalar]"], Generic[Scalar]):
         return self.values[self.offsets[i]:self.offsets[i + 1]]
 
     def lengths(self) -> Ids:
-        """The number of entries of each row."""
+        """Returns the number of entries of each row."""
         return np.diff(self.offsets)
 
     def __repr__(self) -> str:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Geographic shapes: GeoJSON, shapefiles and other formats that GDAL reads, projected. Their
-library, libpnpbs_geo, is opened at first use; it exists only where PNPBS was built with GDAL."""
+"""Geographic shapes and grids: GeoJSON, shapefiles and other formats that GDAL reads, projected to
+x and y. Their library, libpnpbs_geo, exists only if PNPBS was built with GDAL. It is opened by the
+first call that needs it."""
 
 from __future__ import annotations
 
@@ -62,9 +63,11 @@ _opened: Optional[ctypes.CDLL] = None
 
 
 def _library() -> ctypes.CDLL:
+    """Returns the library of shapes with declared functions. The first call opens it. Raises
+    ImportError if it does not exist."""
     global _opened
     if _opened is None:
-        library()  # opens libpnpbs first, which this library calls
+        library()  # libpnpbs_geo calls libpnpbs, which must be opened first
         beside = common_folder(pathlib.Path(library_path())) / _SONAME
         try:
             opened = ctypes.CDLL(str(beside) if beside.exists() else _SONAME)
@@ -76,22 +79,27 @@ def _library() -> ctypes.CDLL:
 
 
 def _check(code: int) -> None:
+    """Raises `PNPBSError` if a call has failed."""
     if code < 0:
         raise PNPBSError(Status(code), _library().pnpbs_geo_last_error().decode())
 
 
 def _text(value: Optional[Path]) -> Optional[bytes]:
+    """Encodes an optional text."""
     return None if value is None else os.fsencode(value)
 
 
 def geo_build_info() -> str:
-    """Returns the versions of GDAL and PROJ in use, one "name: version" per line."""
+    """Returns the versions of GDAL and PROJ in use, one "name: version" per line. Local."""
     return str(_library().pnpbs_geo_build_info().decode())
 
 
 class ShapeCounts(NamedTuple):
-    """Numbers of what was read: distinct positions, including those of points; boundary curves and
-    inner ones, closed or between the vertices where curves meet; and fixed nodes."""
+    """Numbers of entities that were read.
+
+    - `vertices`: distinct positions, including those of points.
+    - `boundary`, `inner`: curves, which are closed or lie between the vertices where curves meet.
+    - `points`: fixed nodes."""
     vertices: int
     boundary: int
     inner: int
@@ -99,7 +107,8 @@ class ShapeCounts(NamedTuple):
 
 
 class NoteCode(enum.IntEnum):
-    """The codes of the header pnpbs_geo.h, which says what each means, and what is counted."""
+    """Codes of notes, as documented in the header `pnpbs_geo.h`, which also defines what is
+    counted. Codes that this package does not have become `UNKNOWN`."""
 
     UNKNOWN = 0
     NO_GEOMETRY = 1
@@ -117,19 +126,22 @@ class NoteCode(enum.IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> NoteCode:
-        return cls.UNKNOWN  # the code is from a newer library
+        return cls.UNKNOWN  # code of a newer library
 
 
 class NoteData(NamedTuple):
+    """A note as data: its code, its text, and the number of features, lines or segments it is
+    about, or 0 if they are not counted."""
+
     code: NoteCode
     text: str
-    count: int  # type: ignore[assignment]  # not what tuple.count is
+    count: int  # type: ignore[assignment]  # hides tuple.count
 
 
 class Projection(NamedTuple):
-    """Texts, "" where the file does not define its coordinate system: a name, the unit of x and y,
-    the PROJ string, WKT 2, and the content of .prj files; and the range of projected length over
-    length on the Earth."""
+    """A projection as texts, which are empty if the file does not define its coordinate system: a
+    name, the unit of x and y, the PROJ string, WKT 2, and the content of a .prj file. `scale` is
+    the range (least, greatest) of projected length over length on the Earth."""
     name: str
     unit: str
     proj: str
@@ -139,15 +151,23 @@ class Projection(NamedTuple):
 
 
 class Shapes(Handle):
-    """One layer of a file, projected; all methods are local.
+    """Shapes of one layer of a file, projected. All methods are local.
 
-    Polygons bound a domain, edges shared by neighbours and lines are inner curves, points are fixed
-    nodes. `projection` is a code ("EPSG:2180"), a PROJ string, WKT, the path of a .prj file,
-    "auto", a projection chosen for the data, "none", the coordinates of the file, or, for domains
-    on a sphere (`Domain.on_sphere`), "sphere(LON,LAT)" with the longitude and latitude of the point
-    outside; by default longitude and latitude are projected as by "auto", and other coordinates are
-    kept. `unit` is "m" or "km", `tag_field` the attribute that becomes the tag. `pnpbs_geo.h` has
-    the details.
+    Polygons bound a domain, lines and edges that neighbours share become inner curves, and points
+    become fixed nodes. `pnpbs_geo.h` has the details.
+
+    - `path`: a file, or anything else that GDAL opens.
+    - `layer`: the name of the layer; None if the file has only one.
+    - `projection`: a code ("EPSG:2180"), a PROJ string, WKT, or the path of a .prj file. "auto" is
+      a projection chosen for the data, and "none" keeps the coordinates of the file.
+      "sphere(LON,LAT)" is for domains on a sphere (`Domain.on_sphere`), with longitude and latitude
+      of the point outside. By default longitude and latitude are projected as by "auto", and other
+      coordinates are kept.
+    - `unit`: "m" or "km"; None for the unit of the projection.
+    - `tag_field`: the attribute that becomes the tag; None for the tag 1.
+
+    Raises `Status.ERROR_FILE` if the file, layer or field cannot be read, `Status.ERROR_ARGUMENT`
+    for an invalid projection or unit, and `Status.ERROR_DOMAIN` if polygons overlap.
 
         with pnpbs.Shapes("coast.geojson", unit="km") as shapes:
             shapes.add_to(domain, corner_angle=45)
@@ -162,8 +182,8 @@ class Shapes(Handle):
         self._handle = handle.value
 
     def close(self) -> None:
-        """Releases the resources of the library. What was added to domains stays there. Closing
-        twice is allowed."""
+        """Releases the resources of the library. Shapes that were added to domains remain there.
+        Repeated calls have no effect."""
         if self.is_open:
             _check(self._destroy(_library().pnpbs_geo_destroy))
 
@@ -171,12 +191,13 @@ class Shapes(Handle):
         return f"<pnpbs.Shapes, {self.projection.name if self.is_open else 'closed'}>"
 
     def _call(self, name: str, *arguments: Any) -> None:
+        """Calls the function pnpbs_geo_<name> with these shapes."""
         _check(getattr(_library(), f"pnpbs_geo_{name}")(self._live(), *arguments))
 
     def add_to(self, domain: Domain, corner_angle: float = 0.0) -> Domain:
-        """Adds the shapes to a domain in the plane or on a sphere and returns it. With
-        `corner_angle=0` every vertex becomes a node; otherwise only those where the direction turns
-        by more than this many degrees."""
+        """Adds the shapes to a domain in the plane or on a sphere, and returns the domain. With
+        `corner_angle=0` every vertex becomes a node. Otherwise only vertices where the direction
+        turns by more than this angle in degrees become nodes."""
         self._call("add_to_domain", domain.context._live(), domain._live(), corner_angle)
         return domain
 
@@ -192,14 +213,14 @@ class Shapes(Handle):
 
     @property
     def counts(self) -> ShapeCounts:
-        """The numbers of what was read."""
+        """The numbers of entities that were read."""
         found = [ctypes.c_int64() for _ in range(4)]
         self._call("counts", *(ctypes.byref(one) for one in found))
         return ShapeCounts(*(one.value for one in found))
 
     @property
     def notes(self) -> List[str]:
-        """Notes on how the file was interpreted."""
+        """Notes on the interpretation of the file, as texts."""
         count, note = ctypes.c_int32(), ctypes.c_char_p()
         self._call("note_count", ctypes.byref(count))
         notes = []
@@ -210,8 +231,7 @@ class Shapes(Handle):
 
     @property
     def note_data(self) -> List[NoteData]:
-        """The same notes as data, each with its code and how many features, lines or segments it is
-        about, 0 if none are counted."""
+        """The same notes as a list of `NoteData`."""
         code, count = ctypes.c_int32(), ctypes.c_int64()
         data = []
         for index, text in enumerate(self.notes):
@@ -220,42 +240,50 @@ class Shapes(Handle):
         return data
 
     def write_prj(self, results: Path) -> None:
-        """Writes the projection beside a file of results: "nodes.prj" for "nodes.vtu"."""
+        """Writes the projection next to a file of results: "nodes.prj" for "nodes.vtu". On several
+        ranks, call it on one of them. Raises `Status.ERROR_STATE` if the projection is not known.
+        """
         self._call("write_prj", os.fsencode(results))
 
     def to_degrees(self, points: ArrayLike) -> Doubles:
-        """Converts points, (n, 2), to longitude and latitude; infinite where they do not exist."""
+        """Converts points of shape (n, 2) to longitude and latitude in degrees. Values that do not
+        exist become infinite. Returns a new array."""
         return self._changed("to_degrees", points)
 
     def from_degrees(self, degrees: ArrayLike) -> Doubles:
-        """Converts longitude and latitude, (n, 2), to x and y; infinite where they do not exist."""
+        """Converts longitude and latitude in degrees, of shape (n, 2), to x and y. Values that do
+        not exist become infinite. Returns a new array."""
         return self._changed("from_degrees", degrees)
 
     def _changed(self, name: str, points: ArrayLike) -> Doubles:
+        """Returns a converted copy of the points."""
         changed = as_points(points, 2, "points").copy()
         self._call(name, len(changed), changed)
         return changed
 
     def explain(self, message: object) -> str:
         """Returns the message of the last error about a domain of these shapes, with longitude and
-        latitude of its points. Any other text is returned as it is."""
+        latitude after each point. Any other text is returned without changes."""
         text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
         return str(text.decode())
 
 
 class GeoGrid(Handle):
-    """Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads; all methods
-    are local. Called with points it returns the values there, like a spacing.
+    """Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads. An object is a
+    function of points, like a spacing. All methods are local.
 
-    `low` and `high` are the corners of the part that is read, in the projection of the points.
-    `projection` is that projection, as in `Shapes` or the `wkt` of its projection; by default the
-    points are in the grid's own system. `variable` is the name of one in a file of several, or the
-    number of a band.
+    - `path`: a file, or anything else that GDAL opens. It stays open, and blocks of it are read
+      where values are requested.
+    - `low`, `high`: opposite corners of the requested part, in the projection of the points.
+    - `variable`: the name of a variable, or the number of a band; None if the file has only one.
+    - `projection`: the projection of the points, as in `Shapes` or the `wkt` of its projection. By
+      default the points are in the coordinate system of the grid.
+
+    Raises `Status.ERROR_FILE` if the file or variable cannot be read, and `Status.ERROR_SPACING` if
+    the grid has no values in the requested part.
 
         depth = pnpbs.GeoGrid("depth.tif", low, high, projection=shapes.projection.wkt)
         placement.set_spacing(lambda x: np.clip(0.02 * depth(x), 0.5, 20))
-
-    The file stays open, and blocks of it are read where values are requested.
     """
 
     def __init__(self, path: Path, low: ArrayLike, high: ArrayLike,
@@ -270,7 +298,7 @@ class GeoGrid(Handle):
         self._handle = handle.value
 
     def close(self) -> None:
-        """Releases the resources of the library. Closing twice is allowed."""
+        """Releases the resources of the library. Repeated calls have no effect."""
         if self.is_open:
             _check(self._destroy(_library().pnpbs_geo_grid_destroy))
 
@@ -278,26 +306,28 @@ class GeoGrid(Handle):
         return f"<pnpbs.GeoGrid, {'open' if self.is_open else 'closed'}>"
 
     def __call__(self, points: ArrayLike) -> Doubles:
-        """Evaluates the grid at points, (n, 2): linear in each direction between the centres of the
-        cells, constant beyond the edge. Cells without data take the value of the nearest cell that
-        has some."""
+        """Evaluates the grid at points of shape (n, 2) and returns n values. They are linear in
+        each direction between the centres of the cells, and constant beyond the edge. Cells without
+        data have the value of the nearest cell with data."""
         return self._asked(points)[0]
 
     def inside(self, points: ArrayLike) -> "np.ndarray[Any, np.dtype[np.bool_]]":
-        """Returns whether points, (n, 2), lie in the grid, or less than half a cell beyond its
-        edge; also where no cell around them has data."""
+        """Returns whether points of shape (n, 2) lie in the grid or less than half a cell beyond
+        its edge, also where no cell around them has data."""
         return np.asarray(self._asked(points)[1] != 0)
 
     def slopes(self, points: ArrayLike, radius: float = 0.0) -> Doubles:
-        """Returns how steep the grid is at points, (n, 2): the change of its values per unit of
-        length. `radius` is that of the sphere along which lengths are, if the points are longitude
-        and latitude in degrees; with 0, lengths are those of the plane of the points."""
+        """Returns the slope of the grid at points of shape (n, 2): n values of the change per unit
+        of length. If the points are longitude and latitude in degrees, `radius` is that of the
+        sphere along which lengths are measured. With 0, lengths are those in the plane of the
+        points."""
         x = as_points(points, 2, "points")
         slopes = np.zeros(len(x))
         _check(_library().pnpbs_geo_grid_slopes(self._live(), radius, len(x), x, slopes))
         return slopes
 
     def _asked(self, points: ArrayLike) -> Tuple[Doubles, "np.ndarray[Any, np.dtype[np.int32]]"]:
+        """Returns values, and codes of their positions in the grid."""
         x = as_points(points, 2, "points")
         values, inside = np.zeros(len(x)), np.zeros(len(x), np.int32)
         _check(_library().pnpbs_geo_grid_values(self._live(), len(x), x, values, inside))
@@ -305,7 +335,8 @@ class GeoGrid(Handle):
 
     @property
     def extent(self) -> Tuple[Doubles, Doubles]:
-        """The bounding box of the whole grid in the file, in the projection of the points."""
+        """The corners (low, high) of the bounding box of the whole grid in the file, in the
+        projection of the points."""
         low, high = np.zeros(2), np.zeros(2)
         _check(_library().pnpbs_geo_grid_extent(self._live(), low, high))
         return low, high
@@ -314,11 +345,21 @@ class GeoGrid(Handle):
 def depth_spacing(depths: ArrayLike, slopes: Optional[ArrayLike] = None, *, wave: float = 30,
                   period: float = 44712, slope: float = 0, least: float = 10,
                   metres: float = 1) -> Doubles:
-    """Returns the d of models of tides and surges by the depth of the water in metres, positive down
-    (elevations must be negated): `wave` nodes per length of a long wave of this `period` in seconds,
-    and `slope` nodes per 2 pi h / |grad h|, each with 0 not at all. Shallower water than `least`,
-    and land, count as flat at that depth. `slopes` are those of the depths, in metres per unit of
-    length, as from `GeoGrid.slopes`; a unit of length is so many `metres`.
+    """Returns the spacing of models of tides and surges by the depth h of the water: the lesser of
+    the spacings by the length of waves and by the slope of the bottom. Water shallower than
+    `least`, and land, count as flat at that depth. Local.
+
+    - `depths`: depths in metres, positive down: elevations must be negated.
+    - `slopes`: slopes of the depths, in metres per unit of length, as returned by `GeoGrid.slopes`;
+      None if `slope` is 0.
+    - `wave`: number of nodes per length of a long wave; 0 for no such bound.
+    - `period`: period of the wave in seconds.
+    - `slope`: number of nodes per 2 pi h / |grad h|; 0 for no such bound.
+    - `least`: least depth in metres.
+    - `metres`: metres per unit of length, for example 1000 for kilometres.
+
+    Raises ValueError if slopes are missing or shapes differ, and `Status.ERROR_SPACING` for a depth
+    or slope that is not a number.
 
         placement.set_spacing(lambda x: np.clip(
             pnpbs.depth_spacing(depth(x), depth.slopes(x), slope=20, metres=1000), 0.5, 20))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Voronoi cells: volumes, faces and shares of the boundary in plain arrays."""
+"""Voronoi cells: volumes, faces and shares of the boundary as plain arrays."""
 
 from __future__ import annotations
 
@@ -17,22 +17,23 @@ from .rows import CompressedRows
 
 @dataclass(frozen=True, eq=False, repr=False)
 class VoronoiCells:
-    """The Voronoi cells of the nodes that this rank owns, made by `placement.voronoi`, in the order
-    of `placement.nodes`. Volumes are areas in the plane and on surfaces, and areas of faces are
-    lengths there; on surfaces distances are straight, and on spheres lengths, areas and distances
-    are along the sphere.
+    """The Voronoi cells of the nodes that this rank owns, as returned by `placement.voronoi`, in
+    the order of `placement.nodes`. In the plane and on surfaces, volumes are areas, and areas of
+    faces are lengths. On surfaces alone distances are straight. On spheres lengths, areas and
+    distances are along the sphere.
 
-    - `volumes`: of each cell.
+    - `volumes`: volume of each cell.
     - `boundary`: the outward normal integrated over the part of the boundary that is closest to the
-      node, (nodes, dim): where the boundary is flat, its length is the area of this part; 0 for
-      nodes away from the boundary. In the plane and in bodies the areas of a cell's faces times
-      their normals and its share of the boundary add up to 0.
-    - `neighbours`: rows of the ids of the neighbours that each cell has a face with, by id.
-    - `numbers`: of these neighbours, as in `placement.numbering`; one array for all rows, as
-      `neighbours.values`. So are the following.
-    - `areas`: of the faces; both cells at a face have the same area to the last bit.
-    - `distances`: from the node to the neighbour.
-    - `normals`: unit vectors from the node to the neighbour, (faces, dim)."""
+      node, of shape (nodes, dim). Where the boundary is flat, its length is the area of this part.
+      It is 0 for nodes away from the boundary. In the plane and in bodies, the areas of the faces
+      of a cell times their normals and its share of the boundary add up to 0.
+    - `neighbours`: for each cell, a row of the ids of the neighbours with which it shares a face,
+      in the order of ids.
+    - `numbers`: numbers of these neighbours, as in `placement.numbering`. This array and the
+      following ones have an entry for each of `neighbours.values`.
+    - `areas`: areas of the faces. Both cells at a face have the same area to the last bit.
+    - `distances`: distances from the node to the neighbour.
+    - `normals`: unit vectors from the node to the neighbour, of shape (faces, dim)."""
 
     volumes: Doubles
     boundary: Doubles
@@ -47,7 +48,7 @@ class VoronoiCells:
 
     @classmethod
     def _copied(cls, context: Context, handle: ctypes.c_void_p) -> VoronoiCells:
-        """Copies all cells of an object of the library."""
+        """Copies all arrays of cells of the library."""
         check = context._check
         dim, nodes, faces = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
         check(library().pnpbs_voronoi_sizes(handle, *map(ctypes.byref, (dim, nodes, faces))))
@@ -64,16 +65,18 @@ class VoronoiCells:
 
 
 class Tessellation(PlacementHandle):
-    """The part of `Placement` that makes Voronoi cells."""
+    """The part of `Placement` that creates Voronoi cells."""
 
     def voronoi(self) -> VoronoiCells:
-        """Makes the Voronoi cells of the current nodes: for each node the part of the elements of
-        the placement that is closer to it than to any other, with its volume, its faces to
+        """Creates the Voronoi cells of the current nodes: for each node the part of the elements of
+        the placement that is closer to it than to any other node, with its volume, its faces to
         neighbours and its share of the boundary. Each element is divided among the corners of all
-        elements that touch it, so a node sees none through a gap that has no elements. The volumes
-        add up to that of the elements to rounding. Cells are functions of the nodes alone: any
-        number of ranks and threads gives the same bits. They are a copy: nodes may move afterwards,
-        and the placement may be closed. Collective."""
+        elements that touch it, so a cell does not extend through a gap without elements. The
+        volumes add up to that of the elements, up to rounding. The bits do not depend on the number
+        of ranks and threads. Collective.
+
+        Returns `VoronoiCells`, which are copies: nodes may move afterwards, and the placement may
+        be closed. Raises `Status.ERROR_STATE` without nodes."""
         handle = ctypes.c_void_p()
         self.context._check(library().pnpbs_voronoi_create(self._live(), ctypes.byref(handle)))
         try:

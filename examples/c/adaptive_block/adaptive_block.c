@@ -1,51 +1,55 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * An adaptive loop in space over the ranks of an MPI program: solve, estimate the error, change d,
- * place nodes again. The body is an L-block, a plate of 2 by 2 by 1 without a quarter. The equation
- * -Laplace u = 0 has the solution u = r^(2/3) sin(2 theta / 3) around its re-entrant edge, where
- * the gradient is infinite. The solver uses linear finite elements on the tetrahedra and conjugate
- * gradients.
+ * An adaptive loop in space, over the ranks of an MPI program. Each round solves, estimates the
+ * error, changes the spacing d and places the nodes again. The body is an L-block, which is a plate
+ * of 2 by 2 by 1 without one quarter. The problem -Laplace u = 0 has the solution
+ * u = r^(2/3) sin(2 theta / 3), where r and theta are polar coordinates about the re-entrant edge.
+ * Its gradient is infinite at this edge. The program uses linear finite elements on the tetrahedra
+ * and conjugate gradients.
  *
  *   mpirun -np 4 ./adaptive_block [ROUNDS [FOLDER]]
  *
- * Each tetrahedron belongs to one rank, and its corners may be ghosts. Every sum over tetrahedra
- * therefore takes two steps: Each rank adds the contributions of its tetrahedra to nodes and
- * ghosts. Then the sums at ghosts are sent to the ranks that own these nodes (add_ghosts). Values
- * are sent in the opposite direction (update_ghosts). No rank ever holds all nodes. If a folder is
- * given, which must exist, every rank writes its piece of the last round.
+ * Each tetrahedron belongs to one rank, and its corners may be ghosts. Every sum over tetrahedra is
+ * therefore computed in two steps: each rank adds the contributions of its tetrahedra to nodes and
+ * ghosts, then the sums at ghosts are sent to the owners and added there (add_ghosts). Values at
+ * nodes are sent in the opposite direction (update_ghosts). No rank holds all nodes. If a folder is
+ * given, every rank writes its piece of the last round into it; the folder must exist.
  *
- * What to check (theory for linear elements and the energy norm, the root of the integral of |grad
- * error|^2): With N nodes of the same d everywhere the error falls as N^(-2/9) because of the edge.
- * With adapted d it falls as N^(-1/3), as if there were no edge. */
+ * Results to check, for linear elements and the energy norm, which is the root of the integral of
+ * |grad error|^2: with N nodes and constant d the error falls as N^(-2/9) because of the edge. On
+ * adapted nodes it falls as N^(-1/3), the rate of a smooth solution.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#define ROUNDS 5 /* default number of rounds */
+#define ROUNDS 5 /* default of the first argument */
 #define MOST_ROUNDS 9
-#define FIRST_NODES 400.0 /* of round 0; every round has twice as many as the one before */
+#define FIRST_NODES 400.0 /* nodes of round 0; each round doubles the number */
 #define PI 3.14159265358979323846
 #define VOLUME 3.0
-#define NODES_PER_CUBE 1.55 /* nodes per cube of side d */
-/* A quadrature rule of four points on a tetrahedron, exact to second degree. Each point has the
- * barycentric coordinate NEAR for its nearest corner and FAR for the others. */
+#define NODES_PER_CUBE 1.55 /* nodes per d^3 */
+/* Barycentric coordinates of the four-point quadrature rule on a tetrahedron, which is exact for
+ * polynomials of second degree: NEAR belongs to the corner next to the point, FAR to the others. */
 #define NEAR 0.58541019662496845
 #define FAR 0.13819660112501051
 
-/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
+/* The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;           /* all: including the ghosts */
+  int64_t owned, all;           /* all = owned + ghosts */
   double *x;                    /* [all][3] */
   double *spacing;              /* [owned] */
   int32_t *tags;                /* [owned] */
   int64_t tetrahedra, *corners; /* [tetrahedra][4] */
 } mesh;
 
-/* One side of the exchange between ranks. The values exchanged with the k-th rank are at the
- * indices nodes[offsets[k]] .. nodes[offsets[k + 1] - 1]. */
+/* One side of the halo exchange, either the sent or the received nodes. The nodes that are
+ * exchanged with neighbour k are nodes[offsets[k]] .. nodes[offsets[k + 1] - 1]; `values` is the
+ * message buffer. */
 typedef struct {
   int64_t *offsets, *nodes;
   double *values;
@@ -53,17 +57,17 @@ typedef struct {
 
 typedef struct {
   int32_t neighbours, *ranks;
-  side shared; /* this rank's nodes that are ghosts elsewhere */
-  side ghosts; /* this rank's ghosts */
+  side shared; /* owned nodes that are ghosts on other ranks */
+  side ghosts; /* ghosts on this rank */
   MPI_Request *requests;
 } exchange;
 
-/* A solution on this rank's nodes and its errors. */
+/* A solution at the nodes of this rank, with its true and its estimated error. */
 typedef struct {
   double nodes, error, estimate; /* over all ranks */
   double *u;                     /* [all] */
-  double *density;               /* [all] estimated squared error per volume about a node */
-  double *volume;                /* [all] this volume: a quarter of its tetrahedra */
+  double *density;               /* [all] estimated squared error per volume around a node */
+  double *volume;                /* [all] this volume: a quarter of the tetrahedra at a node */
 } solution;
 
 static void check(pnpbs_status status, pnpbs_context context) {
@@ -73,6 +77,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -81,11 +86,12 @@ static void *room(int64_t n, size_t size) {
 
 /* ---------------------------------------------------------------- the body --------------- */
 
-/* The vertices from above, with the re-entrant edge at (1, 1):
+/* Adds the surface of the L-block to the domain. Vertices as seen from above, with the re-entrant
+ * edge at vertex 3, which is (1, 1); vertices 6 .. 11 lie above them at z = 1:
  *   5---4
  *   |   |
  *   |   3---2
- *   0-------1    and the same six vertices, plus 6, at z = 1 */
+ *   0-------1 */
 static void add_block(pnpbs_domain domain, pnpbs_context context) {
   const double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   const int64_t cover[4][3] = {{3, 4, 5}, {3, 5, 0}, {3, 0, 1}, {3, 1, 2}};
@@ -99,7 +105,7 @@ static void add_block(pnpbs_domain domain, pnpbs_context context) {
   }
   for (i = 0; i < 4; ++i)
     for (k = 0; k < 3; ++k) {
-      triangles[i][k] = cover[i][2 - k]; /* below; counter-clockwise seen from below */
+      triangles[i][k] = cover[i][2 - k]; /* bottom, counter-clockwise as seen from below */
       triangles[4 + i][k] = cover[i][k] + 6;
     }
   for (i = 0; i < 6; ++i) {
@@ -117,8 +123,8 @@ static void add_block(pnpbs_domain domain, pnpbs_context context) {
 
 static double distance(const double *x) { return hypot(x[0] - 1, x[1] - 1); }
 
-/* Returns theta, 0 .. 3/2 pi inside, from the side above the re-entrant edge to that on its right.
- */
+/* Returns theta: 0 on the face above the re-entrant edge (direction +y), growing counter-clockwise
+ * to 3/2 pi on the face to its right. */
 static double angle(const double *x) {
   const double theta = atan2(1 - x[0], x[1] - 1);
   return theta < -PI / 4 ? theta + 2 * PI : theta;
@@ -128,8 +134,8 @@ static double known_solution(const double *x) {
   return pow(distance(x), 2.0 / 3) * sin(2.0 / 3 * angle(x));
 }
 
-/* Computes the gradient of u. theta = 0 is the direction of y, and theta = pi / 2 that of -x. u
- * does not depend on z. */
+/* Computes grad u. The axes of r and theta are y, where theta is 0, and -x; u does not depend on z.
+ */
 static void known_gradient(const double *x, double *g) {
   const double size = 2.0 / 3 / cbrt(distance(x)), theta = angle(x);
   g[0] = -size * cos(theta / 3);
@@ -199,7 +205,8 @@ static double sum_over_ranks(const mesh *m, double part) {
   return sum;
 }
 
-/* Sends the values of x on one side of the exchange to the other side. */
+/* Sends the values of x at the nodes of side `from` to the neighbours and receives those of side
+ * `to` into to->values. Collective. */
 static void transfer(const mesh *m, const exchange *e, const side *from, const side *to,
                      const double *x) {
   const int64_t *f = from->offsets, *t = to->offsets;
@@ -215,7 +222,7 @@ static void transfer(const mesh *m, const exchange *e, const side *from, const s
   MPI_Waitall(2 * e->neighbours, e->requests, MPI_STATUSES_IGNORE);
 }
 
-/* Copies to the ghosts the values of their owners. */
+/* Copies the values at nodes to their ghosts on other ranks. Collective. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   int64_t i;
   transfer(m, e, &e->shared, &e->ghosts, x);
@@ -223,7 +230,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
     x[e->ghosts.nodes[i]] = e->ghosts.values[i];
 }
 
-/* Adds to this rank's nodes the contributions that other ranks have at their ghosts. */
+/* Adds the sums at ghosts on other ranks to the owned nodes of this rank. Collective. */
 static void add_ghosts(const mesh *m, const exchange *e, double *x) {
   int64_t i;
   transfer(m, e, &e->ghosts, &e->shared, x);
@@ -233,7 +240,7 @@ static void add_ghosts(const mesh *m, const exchange *e, double *x) {
 
 /* ---------------------------------------------------------------- linear elements -------- */
 
-/* The corners of the six edges of a tetrahedron. */
+/* Corner numbers at the ends of the six edges of a tetrahedron. */
 static const int edge_ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 static void cross(const double *a, const double *b, double *c) {
@@ -246,8 +253,8 @@ static double dot3(const double *a, const double *b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Computes the gradients of the four functions that are 1 at one corner and 0 at the others.
- * Returns the volume. */
+/* Computes the gradients of the four hat functions, each 1 at one corner and 0 at the others, and
+ * returns the volume of the tetrahedron. */
 static double hat_gradients(const mesh *m, const int64_t *corners, double hat[4][3]) {
   double edge[3][3], six_volumes;
   int i, k;
@@ -262,7 +269,7 @@ static double hat_gradients(const mesh *m, const int64_t *corners, double hat[4]
   return six_volumes / 6;
 }
 
-/* Computes the constant gradient of u on a tetrahedron. Returns its volume. */
+/* Computes the constant gradient of u on a tetrahedron and returns the volume. */
 static double gradient(const mesh *m, const int64_t *corners, const double *u, double *g) {
   double hat[4][3];
   const double volume = hat_gradients(m, corners, hat);
@@ -273,8 +280,9 @@ static double gradient(const mesh *m, const int64_t *corners, const double *u, d
   return volume;
 }
 
-/* Assembles the stiffness matrix. stiffness[t][k] is minus the integral of grad phi . grad phi for
- * the corners of edge k. Rows sum to zero, so that the diagonal follows from these entries. */
+/* Computes stiffness[t][k], the integral of grad phi_a . grad phi_b over tetrahedron t for the ends
+ * a and b of edge k, and the diagonal of the matrix. Each row sums to zero, so the entries of the
+ * edges determine the diagonal. Collective. */
 static void assemble(const mesh *m, const exchange *e, double *stiffness, double *diagonal) {
   int64_t t;
   int k;
@@ -292,7 +300,7 @@ static void assemble(const mesh *m, const exchange *e, double *stiffness, double
   add_ghosts(m, e, diagonal);
 }
 
-/* Computes y = A x at this rank's nodes. */
+/* Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective. */
 static void multiply(const mesh *m, const exchange *e, const double *stiffness, double *x,
                      double *y) {
   int64_t i, t;
@@ -317,8 +325,9 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner. On
- * the boundary u does not change, because the residual there is set to zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner.
+ * Values of u on the boundary do not change, because the residual is set to zero there. Collective.
+ */
 static void solve(const mesh *m, const exchange *e, double *u) {
   double *stiffness = room(6 * m->tetrahedra, sizeof(double));
   double *diagonal = room(m->all, sizeof(double)), *r = room(m->owned, sizeof(double));
@@ -357,8 +366,8 @@ static void solve(const mesh *m, const exchange *e, double *u) {
 
 /* ---------------------------------------------------------------- the error -------------- */
 
-/* Computes smooth[i], component i of the mean gradient of the tetrahedra around each node, weighted
- * by their volumes. */
+/* Computes smooth[i][n], component i of the mean gradient of u over the tetrahedra at node n,
+ * weighted by their volumes. Collective. */
 static void average_gradients(const mesh *m, const exchange *e, const solution *s,
                               double *smooth[3]) {
   int64_t t, n;
@@ -380,8 +389,8 @@ static void average_gradients(const mesh *m, const exchange *e, const solution *
   }
 }
 
-/* Returns the integral over a tetrahedron of the square of (f - constant), where f is linear with
- * the given values at the corners. */
+/* Returns the integral of (f - constant)^2 over a tetrahedron with corners c. f is given at the
+ * nodes and linear on the tetrahedron. */
 static double integral_of_square(double volume, const double *f, const int64_t *c,
                                  double constant) {
   double sum = 0, squares = 0;
@@ -393,9 +402,9 @@ static double integral_of_square(double volume, const double *f, const int64_t *
   return volume / 20 * (squares + sum * sum);
 }
 
-/* Estimates the error on each tetrahedron without knowing u, as the distance of the solution's
- * gradient from the averaged one (Zienkiewicz and Zhu 1987). A quarter of it counts at each corner.
- */
+/* Estimates the error without the known solution: on each tetrahedron as the L2 distance between
+ * the gradient of u and the averaged gradient (Zienkiewicz and Zhu 1987). Each corner receives a
+ * quarter of the squared error. Collective. */
 static void estimate(const mesh *m, const exchange *e, solution *s) {
   double *smooth[3], all = 0;
   int64_t t, n;
@@ -416,8 +425,8 @@ static void estimate(const mesh *m, const exchange *e, solution *s) {
   for (i = 0; i < 3; ++i) free(smooth[i]);
 }
 
-/* Returns the integral of |grad u - g|^2 over a tetrahedron, with the known solution u, by four
- * points. */
+/* Returns the integral of |grad u - g|^2 over a tetrahedron with corners x by the four-point rule,
+ * where u is the known solution. */
 static double squared_error_by_points(double x[4][3], double volume, const double *g) {
   double sum = 0, point[3], known[3];
   int i, k;
@@ -430,9 +439,9 @@ static double squared_error_by_points(double x[4][3], double volume, const doubl
   return volume / 4 * sum;
 }
 
-/* Returns the same integral by parts. Where the tetrahedron is large relative to its distance from
- * the re-entrant edge, its longest edge is halved up to 15 times. The remaining error is
- * negligible. */
+/* Returns the same integral with enough points near the re-entrant edge: a tetrahedron that is
+ * large compared with its distance from that edge is bisected at its longest edge, at most 15
+ * times. The rest of the singularity is negligible then. */
 static double squared_error(double x[4][3], double volume, const double *g, int depth) {
   double longest = 0, middle[3], part[4][3], sum = 0, r = 0;
   int i, k, end, halved = 0;
@@ -453,7 +462,7 @@ static double squared_error(double x[4][3], double volume, const double *g, int 
   return sum;
 }
 
-/* Returns the true error in the energy norm. */
+/* Returns the true error in the energy norm. Collective. */
 static double energy_error(const mesh *m, const double *u) {
   double part = 0, g[3], x[4][3];
   int64_t t;
@@ -486,17 +495,18 @@ static void solve_and_estimate(pnpbs_placement p, pnpbs_context context, mesh *m
   s->error = energy_error(m, s->u);
 }
 
-/* Returns d rounded to six bits. The last digits of d depend on the order in which the ranks' parts
- * are summed, and other digits would give other nodes. Rounding makes the nodes the same on any
- * number of ranks. */
+/* Returns d rounded to six bits. The last bits of d depend on the order in which MPI sums over the
+ * ranks, and nodes depend on all bits of d. Rounding makes the nodes independent of the number of
+ * ranks. */
 static double rounded(double d) {
   int exponent;
   const double fraction = frexp(d, &exponent);
   return ldexp(floor(64 * fraction + 0.5), exponent - 6);
 }
 
-/* Returns the number of nodes that a spacing demands: the integral of their density. d is given at
- * the nodes and linear between them. The integral uses the rule of squared_error_by_points. */
+/* Returns the number of nodes that a spacing implies, which is the integral of their density. d is
+ * given at the nodes and linear on each tetrahedron; the integral uses the four-point rule.
+ * Collective. */
 static double nodes_of(const mesh *m, const double *d) {
   double part = 0, hat[4][3];
   int64_t t;
@@ -511,10 +521,11 @@ static double nodes_of(const mesh *m, const double *d) {
   return sum_over_ranks(m, part);
 }
 
-/* Sets a spacing for this number of nodes that distributes the error evenly. With spacing h and
- * squared error per volume w, w / h^2 does not change with h (it is about |second derivatives|^2).
- * The squared error around a node of spacing d is therefore w / h^2 d^5, which must be equal for
- * all nodes. */
+/* Sets the spacing for which about `nodes` nodes share the error evenly. With spacing h and squared
+ * error per volume w, the quotient w / h^2 does not depend on h, because it is about |second
+ * derivatives|^2. A node with the new spacing d has the squared error w / h^2 d^5 around it; d
+ * equalises this error over all nodes. One step changes d by factors between 1/8 and 1.5.
+ * Collective. */
 static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const exchange *e,
                   const solution *s, double nodes) {
   double *d = room(m->all, sizeof(double)), scale;
@@ -547,8 +558,8 @@ static void print_round(const char *kind, int round, const mesh *m, const soluti
            round, s->nodes, least, s->error, s->estimate / s->error);
 }
 
-/* Writes FOLDER/adaptive_block_<rank>.vtk for ParaView. The estimate in it is the root of the
- * squared error per volume. */
+/* Writes FOLDER/adaptive_block_<rank>.vtk for ParaView. The field `estimate` is the root of the
+ * estimated squared error per volume. */
 static void write_piece(const char *folder, const mesh *m, const exchange *e, const solution *s) {
   const long all = (long)m->all, tetrahedra = (long)m->tetrahedra;
   const int64_t *c = m->corners;
@@ -583,7 +594,8 @@ static void write_piece(const char *folder, const mesh *m, const exchange *e, co
   fclose(file);
 }
 
-/* The figures of all rounds that are fitted and compared. */
+/* Numbers of nodes and errors of all rounds. `effectivity` is the estimate over the true error in
+ * the last round. */
 typedef struct {
   int rounds;
   double nodes[MOST_ROUNDS], errors[MOST_ROUNDS], effectivity;
@@ -595,8 +607,8 @@ static void remember(history *h, int round, const solution *s) {
   h->effectivity = s->estimate / s->error;
 }
 
-/* Sets and returns the constant d for about this number of nodes. The library estimates their
- * number without placing them. */
+/* Sets and returns the constant spacing that results in about `nodes` nodes.
+ * pnpbs_placement_estimate predicts the number of nodes without placing them. Collective. */
 static double set_uniform_spacing(pnpbs_placement p, pnpbs_context context, double nodes) {
   double d = cbrt(NODES_PER_CUBE * VOLUME / nodes);
   int64_t expected;
@@ -628,7 +640,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
     remember(h, round, &s);
     if (round < h->rounds - 1) {
       adapt(p, context, &m, &e, &s, FIRST_NODES * pow(2, round + 1));
-      check(pnpbs_placement_initialise(p), context); /* much smaller d needs new nodes everywhere */
+      check(pnpbs_placement_initialise(p), context); /* d is much smaller: start with a new fill */
     } else if (folder != NULL)
       write_piece(folder, &m, &e, &s);
     release(&m, &e, &s);
@@ -636,7 +648,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   pnpbs_placement_destroy(&p);
 }
 
-/* Runs the rounds with about the same numbers of nodes and the same d everywhere. */
+/* Repeats the rounds with a constant d and about as many nodes. */
 static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain domain,
                            const double *nodes, history *h) {
   int round;
@@ -657,8 +669,8 @@ static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   }
 }
 
-/* Returns the power of N by which errors fall, fitted to the last four rounds: minus the slope of
- * log error over log N. */
+/* Returns the order of convergence p in error ~ N^(-p): minus the slope of log(error) over log(N),
+ * fitted by least squares to the last four rounds. */
 static double order(const history *h) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const int n = 4;
@@ -675,7 +687,7 @@ static double order(const history *h) {
 }
 
 int main(int argc, char **argv) {
-  const MPI_Comm comm = MPI_COMM_WORLD; /* any communicator */
+  const MPI_Comm comm = MPI_COMM_WORLD; /* or any other communicator */
   pnpbs_context context;
   pnpbs_domain domain;
   history adapted, uniform;

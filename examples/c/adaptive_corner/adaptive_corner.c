@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * An adaptive loop on a placement over the ranks of an MPI program: solve, estimate the error,
- * change d, place nodes again. The domain is an L, (-1, 1)^2 without its lower right quarter.
- * -Laplace u = 0 has the solution u = r^(2/3) sin(2 theta / 3), whose gradient is infinite at the
- * reentrant corner. The solver uses linear finite elements from the Delaunay stars and conjugate
- * gradients, as in laplace_ring.
+ * An adaptive loop on a live placement, over the ranks of an MPI program. Each round solves,
+ * estimates the error, changes the spacing d and runs the placement again. The domain is an L, the
+ * square (-1, 1)^2 without its lower right quarter. The problem -Laplace u = 0 has the solution
+ * u = r^(2/3) sin(2 theta / 3), whose gradient is infinite at the re-entrant corner. As in
+ * laplace_ring, the program assembles linear finite elements from the Delaunay stars and solves by
+ * conjugate gradients.
  *
  *   mpirun -np 4 ./adaptive_corner [FOLDER]
  *
- * In each round the error on each triangle is estimated, without knowing u, as the distance of the
- * solution's gradient from an averaged one over the stars (Zienkiewicz and Zhu 1987). From it
- * follows the d that distributes the error evenly over twice as many nodes. The next run starts
- * from the current nodes. If the ranks then have unequal work, it is partitioned again. No rank
- * ever holds all nodes. If a folder is given, which must exist, every rank writes its piece of the
- * last round.
+ * The error on each triangle is estimated, without the known solution, as the L2 distance between
+ * the gradient of the finite element solution and a smoother gradient that is averaged over the
+ * stars (Zienkiewicz and Zhu 1987). The new d distributes the error evenly over twice as many
+ * nodes. The next run starts from the current nodes. If the work of the ranks is unequal
+ * afterwards, it is repartitioned. No rank holds all nodes. If a folder is given, every rank writes
+ * its piece of the last round into it; the folder must exist.
  *
- * What to check (theory for linear elements and the energy norm, the root of the integral of |grad
- * error|^2): With N nodes of the same d everywhere the error falls as N^(-1/3) because of the
- * corner. With adapted d it falls as N^(-1/2), as if there were no corner. The estimate is about as
- * large as the error. */
+ * Results to check, for linear elements and the energy norm, which is the root of the integral of
+ * |grad error|^2: with N nodes and constant d the error falls as N^(-1/3) because of the corner. On
+ * adapted nodes it falls as N^(-1/2), the rate of a smooth solution. The estimate is about as large
+ * as the error.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -26,23 +28,23 @@
 #include <stdlib.h>
 
 #define ROUNDS 6
-#define FIRST_NODES 400.0 /* of round 0; every round has twice as many as the one before */
+#define FIRST_NODES 400.0 /* nodes of round 0; each round doubles the number */
 #define PI 3.14159265358979323846
 #define AREA 3.0
 #define PERIMETER 8.0
 
-/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
+/* The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;          /* all: including the ghosts */
+  int64_t owned, all;          /* all = owned + ghosts */
   double *xy;                  /* [all][2] */
   double *spacing;             /* [all] */
   int32_t *tags;               /* [all] */
   int64_t triangles, *corners; /* [triangles][3] */
 } mesh;
 
-/* The exchange: the nodes whose values are sent to each rank, and the ghosts whose values come from
- * it. */
+/* The halo exchange pattern of pnpbs_placement_get_exchange, with message buffers. */
 typedef struct {
   int32_t neighbours, *ranks;
   int64_t *send_offsets, *send_nodes, *receive_offsets, *receive_nodes;
@@ -50,20 +52,20 @@ typedef struct {
   MPI_Request *requests;
 } exchange;
 
-/* The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the
- * star. The entries of row i are those from offsets[i] to offsets[i + 1] - 1. */
+/* The matrix rows of the owned nodes. Row i has a diagonal entry and one entry for each node of the
+ * star of node i, at offsets[i] .. offsets[i + 1] - 1. */
 typedef struct {
   int64_t *offsets, *columns;
-  int8_t *triangle; /* 1 if the node, this one and the next of the star form a triangle */
+  int8_t *triangle; /* 1: the node, this one and the next one of the star form a triangle */
   double *diagonal, *values;
 } matrix;
 
-/* A solution on this rank's nodes and its errors. */
+/* A solution at the nodes of this rank, with its true and its estimated error. */
 typedef struct {
   double nodes, error, estimate; /* over all ranks */
   double *u;                     /* [all] */
-  double *density;               /* [all] estimated squared error per area about a node */
-  double *area;                  /* [owned] this area: a third of the triangles of its star */
+  double *density;               /* [all] estimated squared error per area around a node */
+  double *area;                  /* [owned] this area: a third of the triangles of the star */
 } solution;
 
 static void check(pnpbs_status status, pnpbs_context context) {
@@ -73,6 +75,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -81,8 +84,8 @@ static void *room(int64_t n, size_t size) {
 
 /* ---------------------------------------------------------------- the known solution ----- */
 
-/* Returns theta, 0 .. 3/2 pi inside, from the edge to the right of the corner to the one below it.
- */
+/* Returns theta: 0 on the edge to the right of the re-entrant corner, growing counter-clockwise to
+ * 3/2 pi on the edge below it. */
 static double angle(const double *x) {
   const double theta = atan2(x[1], x[0]);
   return theta < -PI / 4 ? theta + 2 * PI : theta;
@@ -139,14 +142,14 @@ static double cotangent(const double *a, const double *b, const double *c) {
   return (bx * cx + by * cy) / (bx * cy - by * cx);
 }
 
-/* Returns the entry of the next node of the star in row i. */
+/* Returns the entry of the node that follows entry k in the star of node i, cyclically. */
 static int64_t next_in_star(const matrix *a, int64_t i, int64_t k) {
   return k + 1 < a->offsets[i + 1] ? k + 1 : a->offsets[i];
 }
 
-/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
- * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
- * zero. */
+/* Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the integral
+ * of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle opposite to
+ * the edge ij, and every row sums to zero. Collective. */
 static void assemble(pnpbs_placement p, pnpbs_context context, const mesh *m, matrix *a) {
   int64_t entries, i, k;
   check(pnpbs_placement_star_size(p, &entries), context);
@@ -208,7 +211,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Copies to the ghosts the values of their owners. */
+/* Copies the values at nodes to their ghosts on other ranks. Collective. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   const int64_t *s = e->send_offsets, *r = e->receive_offsets;
   int64_t i;
@@ -224,7 +227,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   for (i = 0; i < r[e->neighbours]; ++i) x[e->receive_nodes[i]] = e->received[i];
 }
 
-/* Computes y = A x at this rank's nodes. */
+/* Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective. */
 static void multiply(const mesh *m, const exchange *e, const matrix *a, double *x, double *y) {
   int64_t i, k;
   update_ghosts(m, e, x);
@@ -234,8 +237,9 @@ static void multiply(const mesh *m, const exchange *e, const matrix *a, double *
   }
 }
 
-/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner. On
- * the boundary u does not change, because the residual there is set to zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients with the diagonal as preconditioner.
+ * Values of u on the boundary do not change, because the residual is set to zero there. Collective.
+ */
 static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *z = room(m->owned, sizeof(double)), *p = room(m->all, sizeof(double));
@@ -270,7 +274,7 @@ static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) 
 
 /* ---------------------------------------------------------------- the error -------------- */
 
-/* Computes the constant gradient of u on a triangle. Returns its area. */
+/* Computes the constant gradient of u on a triangle and returns the area. */
 static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int64_t k, double *g) {
   const double *xi = m->xy + 2 * i, *xj = m->xy + 2 * j, *xk = m->xy + 2 * k;
   const double jx = xj[0] - xi[0], jy = xj[1] - xi[1], kx = xk[0] - xi[0], ky = xk[1] - xi[1];
@@ -280,7 +284,8 @@ static double gradient(const mesh *m, const double *u, int64_t i, int64_t j, int
   return twice / 2;
 }
 
-/* Computes the mean gradient of the triangles of each star, weighted by their areas. */
+/* Computes the mean gradient of u over the triangles of each star, weighted by their areas.
+ * Collective. */
 static void average_gradients(const mesh *m, const exchange *e, const matrix *a, const double *u,
                               double *gx, double *gy) {
   int64_t i, k;
@@ -300,13 +305,14 @@ static void average_gradients(const mesh *m, const exchange *e, const matrix *a,
   update_ghosts(m, e, gy);
 }
 
-/* Returns the integral over a triangle of the square of a linear function with the given values at
- * the corners. */
+/* Returns the integral of the square of a linear function over a triangle from its values a, b and
+ * c at the corners. */
 static double integral_of_square(double area, double a, double b, double c) {
   return area / 12 * (a * a + b * b + c * c + (a + b + c) * (a + b + c));
 }
 
-/* Estimates the squared error around each node: a third of the squared errors of its triangles. */
+/* Estimates the squared error around each node, a third of that on the triangles of its star.
+ * Collective. */
 static void estimate(const mesh *m, const exchange *e, const matrix *a, solution *s) {
   double *gx = room(m->all, sizeof(double)), *gy = room(m->all, sizeof(double)), all = 0;
   int64_t i, k;
@@ -329,10 +335,10 @@ static void estimate(const mesh *m, const exchange *e, const matrix *a, solution
   free(gy);
 }
 
-/* Returns the integral of |grad u - g|^2 over a triangle, with the known solution u. Where the
- * triangle is small relative to its distance from the corner, the rule of the edges' midpoints is
- * used. Otherwise the triangle is divided into four, up to 14 times. The remaining error at the
- * corner is negligible. */
+/* Returns the integral of |grad u - g|^2 over a triangle, where u is the known solution. A triangle
+ * that is small compared with its distance from the re-entrant corner is integrated by the
+ * midpoints of its edges. Others are divided into four, at most 14 times; the rest of the
+ * singularity is negligible then. */
 static double squared_error(const double *a, const double *b, const double *c, const double *g,
                             int depth) {
   const double ab[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
@@ -353,7 +359,7 @@ static double squared_error(const double *a, const double *b, const double *c, c
   return twice / 6 * sum;
 }
 
-/* Returns the true error in the energy norm. */
+/* Returns the true error in the energy norm. Collective. */
 static double energy_error(const mesh *m, const double *u) {
   double part = 0, g[2];
   int64_t t;
@@ -384,19 +390,20 @@ static void solve_and_estimate(pnpbs_placement p, pnpbs_context context, mesh *m
   s->error = energy_error(m, s->u);
 }
 
-/* Returns d rounded to six bits. The last digits of d depend on the order in which the ranks' parts
- * are summed, and other digits would give other nodes. Rounding makes the nodes the same on any
- * number of ranks. */
+/* Returns d rounded to six bits. The last bits of d depend on the order in which MPI sums over the
+ * ranks, and nodes depend on all bits of d. Rounding makes the nodes independent of the number of
+ * ranks. */
 static double rounded(double d) {
   int exponent;
   const double fraction = frexp(d, &exponent);
   return ldexp(floor(64 * fraction + 0.5), exponent - 6);
 }
 
-/* Sets a spacing for this number of nodes that distributes the error evenly. With spacing h and
- * squared error per area w, w / h^2 does not change with h (it is about |second derivatives|^2).
- * The squared error around a node of spacing d is therefore w / h^2 d^4, which must be equal for
- * all nodes. Triangles with edges of length d have 2 / sqrt(3) nodes per d^2. */
+/* Sets the spacing for which about `nodes` nodes share the error evenly. With spacing h and squared
+ * error per area w, the quotient w / h^2 does not depend on h, because it is about |second
+ * derivatives|^2. A node with the new spacing d has the squared error w / h^2 d^4 around it; d
+ * equalises this error over all nodes. Equilateral triangles with edges of length d have 2 /
+ * sqrt(3) nodes per d^2. One step changes d by factors between 1/8 and 1.5. Collective. */
 static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const solution *s,
                   double nodes) {
   double *d = room(m->owned, sizeof(double)), part = 0, scale;
@@ -411,7 +418,8 @@ static void adapt(pnpbs_placement p, pnpbs_context context, const mesh *m, const
   free(d);
 }
 
-/* Partitions the work again if it is unequal. The nodes do not change. */
+/* Repartitions the work if the largest work of a rank exceeds the mean by 5 % or more. The nodes do
+ * not change. Collective. */
 static void balance(pnpbs_placement p, pnpbs_context context, int rank) {
   double before, after;
   check(pnpbs_placement_get_double(p, "imbalance", &before), context);
@@ -438,8 +446,8 @@ static void print_round(const char *kind, int round, const mesh *m, const soluti
            round, s->nodes, least, s->error, s->estimate / s->error);
 }
 
-/* Writes FOLDER/adaptive_corner_<rank>.vtk for examples/draw_pieces.py or ParaView. The estimate in
- * it is the root of the squared error per area. */
+/* Writes FOLDER/adaptive_corner_<rank>.vtk for examples/draw_pieces.py or ParaView. The field
+ * `estimate` is the root of the estimated squared error per area. */
 static void write_piece(const char *folder, const mesh *m, const exchange *e, const solution *s) {
   const long all = (long)m->all, triangles = (long)m->triangles;
   const int64_t *c = m->corners;
@@ -475,7 +483,8 @@ static void write_piece(const char *folder, const mesh *m, const exchange *e, co
   fclose(file);
 }
 
-/* The figures of all rounds that are fitted and compared. */
+/* Numbers of nodes and errors of all rounds. `effectivity` is the estimate over the true error in
+ * the last round. */
 typedef struct {
   double nodes[ROUNDS], errors[ROUNDS], effectivity;
 } history;
@@ -486,8 +495,8 @@ static void remember(history *h, int round, const solution *s) {
   h->effectivity = s->estimate / s->error;
 }
 
-/* Returns the constant d for this number of nodes in the L: 2 / sqrt(3) per d^2, plus half a node
- * per d of the boundary. */
+/* Returns the constant spacing that results in about `nodes` nodes in the L: 2 / sqrt(3) nodes per
+ * d^2 of the area plus half a node per d of the boundary. */
 static double uniform_spacing(double nodes) {
   const double a = 2 / sqrt(3.0) * AREA, b = PERIMETER / 2;
   return 2 * a / (sqrt(b * b + 4 * a * nodes) - b);
@@ -499,8 +508,8 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   int round, rank;
   MPI_Comm_rank(comm, &rank);
   check(pnpbs_placement_create(context, domain, &p), context);
-  /* The growth limit smooths the estimated d. The large threshold leaves the decision about a new
-   * partition to this program. */
+  /* The growth limit smooths the jumps of the estimate. The high threshold switches off the
+   * library's own repartitioning, because this program calls pnpbs_placement_rebalance. */
   check(pnpbs_placement_set_double(p, "growth_limit", 0.4), context);
   check(pnpbs_placement_set_double(p, "rebalance_above", 1e6), context);
   check(pnpbs_placement_set_spacing_constant(p, uniform_spacing(FIRST_NODES)), context);
@@ -524,7 +533,7 @@ static void adapted_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   pnpbs_placement_destroy(&p);
 }
 
-/* Runs the rounds with about the same numbers of nodes and the same d everywhere. */
+/* Repeats the rounds with a constant d and about as many nodes. */
 static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain domain,
                            const double *nodes, history *h) {
   int round;
@@ -546,8 +555,8 @@ static void uniform_rounds(MPI_Comm comm, pnpbs_context context, pnpbs_domain do
   }
 }
 
-/* Returns the power of N by which errors fall, fitted to the last four rounds: minus the slope of
- * log error over log N. */
+/* Returns the order of convergence p in error ~ N^(-p): minus the slope of log(error) over log(N),
+ * fitted by least squares to the last four rounds. */
 static double order(const history *h) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const int n = 4;
@@ -565,7 +574,7 @@ static double order(const history *h) {
 
 int main(int argc, char **argv) {
   const double corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {0, -1}};
-  const MPI_Comm comm = MPI_COMM_WORLD; /* any communicator */
+  const MPI_Comm comm = MPI_COMM_WORLD; /* or any other communicator */
   pnpbs_context context;
   pnpbs_domain domain;
   history adapted, uniform;

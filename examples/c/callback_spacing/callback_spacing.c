@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Nodes in a disc, fine at a point near the boundary and coarser away from it. The spacing comes
- * from a callback, and a second callback monitors the run.
+ * Nodes in a disc, with a small spacing at a point near the rim and a larger one elsewhere. A
+ * callback defines the spacing, and a second callback monitors the run.
  *
- * What to check: The number of nodes is compared with the number that the spacing demands. This is
- * the integral of 2 / (sqrt(3) d^2) over the disc plus half of the boundary nodes (the area around
- * a boundary node is half of that around an inner node). The mean edge of the triangles divided by
- * d is near 1. */
+ * Results to check: the number of nodes should be the integral of 2 / (sqrt(3) d^2) over the disc
+ * plus half of the boundary nodes, because a boundary node represents half the area of an inner
+ * one. The mean ratio of edge length to d should be close to 1.
+ */
 #include <math.h>
 #include <pnpbs/pnpbs.h>
 #include <stdio.h>
@@ -19,7 +19,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
   }
 }
 
-/* The parameters of the spacing callback, which receives them through its last argument. */
+/* The parameters of the spacing; the callback receives them through its last argument, `user`. */
 struct fine_spot {
   double x, y, finest, growth;
 };
@@ -28,15 +28,15 @@ static double spacing_at(const struct fine_spot *spot, double x, double y) {
   return spot->finest + spot->growth * hypot(x - spot->x, y - spot->y);
 }
 
-/* Computes d for n points at once. It must return the same d for the same point in every call. */
+/* Evaluates d at n points. A spacing callback must be a pure function of the point. */
 static int32_t spacing(int64_t n, int32_t dim, const double *xyz, double *d, void *user) {
   const struct fine_spot *spot = user;
   int64_t i;
   for (i = 0; i < n; ++i) d[i] = spacing_at(spot, xyz[i * dim], xyz[i * dim + 1]);
-  return 0; /* any other value ends the call with an error */
+  return 0; /* any other value fails the call with PNPBS_ERROR_CALLBACK */
 }
 
-/* Receives the progress of the run. A nonzero return value ends the run early, with valid nodes. */
+/* Counts the calls of the monitor. A nonzero return value stops the run early, with valid nodes. */
 static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_speed, void *user) {
   int64_t *calls = user;
   (void)fraction, (void)step, (void)nodes, (void)max_speed;
@@ -44,8 +44,8 @@ static int32_t watch(double fraction, int64_t step, int64_t nodes, double max_sp
   return 0;
 }
 
-/* Returns the number of nodes that the spacing demands: the integral over rings and sectors of the
- * unit disc. */
+/* Returns the number of nodes that the spacing implies inside the unit disc. The integral is a sum
+ * over rings and sectors. */
 static double wanted_inner_nodes(const struct fine_spot *spot) {
   const double pi = 3.14159265358979323846;
   const int rings = 1000, sectors = 1000;

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Conjugate gradients with bitwise equal iterations on any number of ranks: -Laplace u = 1 in the
- * unit disc with u = 0 on its boundary, by linear finite elements. There are three reasons: The
- * nodes are the same. Every row of the matrix is assembled and multiplied in the order of the
- * nodes' ids. The dot products are those of the library, which adds without rounding. Rows without
- * ghosts are multiplied while the values of ghosts are exchanged.
+ * Conjugate gradients with bitwise identical iterations on any number of ranks. The program solves
+ * -Laplace u = 1 in the unit disc with u = 0 on its boundary, by linear finite elements. The
+ * iterations are identical for three reasons: the nodes are identical, every row of the matrix is
+ * assembled and multiplied in the order of node ids, and the dot products are those of the library,
+ * which are exact sums, rounded once. The update of the ghosts overlaps with the multiplication of
+ * the rows that need no ghost.
  *
  *   mpirun -np 4 ./conjugate_gradients
  *
- * What to check: All digits of the residuals are the same on any number of ranks. The solution is u
- * = (1 - r^2) / 4, whose integral is pi / 8. With second derivatives of 1/2 the error of linear
- * interpolation on equilateral triangles is at most d^2 / 12. The chords of the boundary are d^2 /
- * 8 off it where u has a slope of 1/2, which adds d^2 / 16. */
+ * Results to check: all digits of the residuals are the same on any number of ranks. The solution
+ * is u = (1 - r^2) / 4, whose integral is pi / 8. Its second derivatives are 1/2, so linear
+ * interpolation on equilateral triangles has an error of at most d^2 / 12. The chords of the
+ * boundary deviate from it by up to d^2 / 8, where u has a slope of 1/2, and add d^2 / 16.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -21,22 +23,24 @@
 #define PI 3.14159265358979323846
 static const double d = 0.04;
 
-/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
+/* The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
-  int64_t owned, all; /* all: including the ghosts */
+  int64_t owned, all; /* all = owned + ghosts */
   double *xy;         /* [all][2] */
   int64_t *ids;       /* [all] */
   int32_t *tags;      /* [all] */
 } mesh;
 
-/* One entry of a row: the coefficient of node `column`, and a sixth of the area on both sides of
- * the edge to it. */
+/* One off-diagonal entry of a row: the matrix value for node `column`, and a sixth of the area of
+ * the triangles on both sides of the edge to that node. */
 typedef struct {
   int64_t id, column;
   double value, area;
 } entry;
 
-/* The rows of this rank's nodes. Rows without ghosts come first in `order`. */
+/* The matrix rows and the load of the owned nodes. Rows that need no ghost come first in `order`.
+ */
 typedef struct {
   int64_t *offsets, *order, without_ghosts;
   entry *entries;
@@ -53,6 +57,7 @@ static void check(pnpbs_status status) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -74,8 +79,8 @@ static void get_mesh(mesh *m) {
                                    m->tags + m->owned, NULL, NULL));
 }
 
-/* Returns the cotangent of the angle at a, and the area, of the triangle a, b, c. The result is
- * bitwise the same for a, c, b, as products and sums of two numbers do not depend on their order.
+/* Returns the cotangent of the angle at a in the triangle a, b, c, and its area. Exchanging b and c
+ * does not change any bit, because products and sums of two numbers do not depend on their order.
  */
 static double cotangent(const double *a, const double *b, const double *c, double *area) {
   const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
@@ -84,8 +89,8 @@ static double cotangent(const double *a, const double *b, const double *c, doubl
   return (bx * cx + by * cy) / twice_area;
 }
 
-/* Adds the contribution of the triangle i, k, other to the entry of row i for node k. At most two
- * triangles contribute, so that their order does not matter. */
+/* Adds the contribution of the triangle (i, k, other) to the entry of row i for node k. An entry
+ * has at most two contributions, so their order does not matter. */
 static void add_triangle(const mesh *m, int64_t i, entry *k, int64_t other) {
   double area;
   k->value -= cotangent(m->xy + 2 * other, m->xy + 2 * i, m->xy + 2 * k->column, &area) / 2;
@@ -97,9 +102,10 @@ static int by_id(const void *a, const void *b) {
   return (i > j) - (i < j);
 }
 
-/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
- * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
- * zero. The integral of phi_i is a third of the area around node i. */
+/* Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the integral
+ * of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle opposite to
+ * the edge ij, every row sums to zero, and the integral of phi_i is a third of the area around node
+ * i. Collective. */
 static void assemble(const mesh *m, matrix *a) {
   int64_t entries, i, k, *columns;
   int8_t *triangle;
@@ -134,6 +140,7 @@ static void assemble(const mesh *m, matrix *a) {
   free(triangle);
 }
 
+/* Returns 1 if row i has an entry for a ghost, otherwise 0. */
 static int needs_ghosts(const mesh *m, const matrix *a, int64_t i) {
   int64_t k;
   for (k = a->offsets[i]; k < a->offsets[i + 1]; ++k)
@@ -141,6 +148,7 @@ static int needs_ghosts(const mesh *m, const matrix *a, int64_t i) {
   return 0;
 }
 
+/* Sorts the rows without ghosts before the others, which makes the overlap in multiply possible. */
 static void order_rows(const mesh *m, matrix *a) {
   int64_t i, at = 0;
   int ghosts;
@@ -153,8 +161,8 @@ static void order_rows(const mesh *m, matrix *a) {
 
 /* ---------------------------------------------------------------- the solver ------------- */
 
-/* Computes some rows of y = A x, each in the order of ids. The result is 0 on the boundary, where u
- * does not change. */
+/* Computes the rows order[begin] .. order[end - 1] of y = A x, each in the order of ids. On the
+ * boundary y is 0, because u does not change there. */
 static void multiply_rows(const mesh *m, const matrix *a, int64_t begin, int64_t end,
                           const double *x, double *y) {
   int64_t r, k;
@@ -167,7 +175,8 @@ static void multiply_rows(const mesh *m, const matrix *a, int64_t begin, int64_t
   }
 }
 
-/* Computes y = A x at this rank's nodes while the values of ghosts are exchanged. */
+/* Computes y = A x at the owned nodes. The rows without ghosts are multiplied while the values of
+ * the ghosts are being sent. Collective. */
 static void multiply(const mesh *m, const matrix *a, double *x, double *y) {
   check(pnpbs_placement_begin_update_ghosts(placement, m->all, 1, x));
   multiply_rows(m, a, 0, a->without_ghosts, x, y);
@@ -181,7 +190,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return product;
 }
 
-/* Solves A u = load from u = 0. Returns the number of steps. */
+/* Solves A u = load, starting from u = 0, and returns the number of iterations. Collective. */
 static int solve(const mesh *m, const matrix *a, double *u, int rank) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *p = room(m->all, sizeof(double)), rr, rr_before, start, alpha;
@@ -249,7 +258,7 @@ int main(int argc, char **argv) {
   error = largest_error(&m, u);
   check(pnpbs_placement_get_int64(placement, "nodes", &nodes));
   if (rank == 0) {
-    /* Triangles of side d fill the disc, and there is half a node more for each boundary node. */
+    /* Equilateral triangles with edges of length d fill the disc; each boundary node adds half. */
     printf("nodes: %ld, expected about %.0f\n", (long)nodes, 2 * PI / sqrt(3) / (d * d) + PI / d);
     printf("steps: %d, expected at most %d\n", steps, 200);
     printf("integral: %.17g, expected about %.5f\n", integral, PI / 8);

@@ -1,20 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring 0.5
- * <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
- * finite element equations are assembled node by node: The row of a node comes from the triangles
- * of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
- * and without a message. examples/fortran/laplace_ring is the same program in Fortran.
+ * A finite element solver on the library's nodes, over the ranks of an MPI program. It solves
+ * -Laplace u = 0 in the ring 0.5 <= r <= 1 with u = log r on both circles; the solution is log r
+ * everywhere. The row of a node follows from the triangles of its Delaunay star alone, so every
+ * rank assembles the rows of its own nodes without a mesh file and without messages.
+ * examples/fortran/laplace_ring is the same program in Fortran.
  *
  *   mpirun -np 4 ./laplace_ring [FOLDER]
  *
- * If a folder is given, which must exist, every rank writes its piece of the solution.
+ * If a folder is given, every rank writes its piece of the solution into it; the folder must exist.
  *
- * What to check: The number of triangles with edges of length d in the ring is its area times 4 /
- * (sqrt(3) d^2). There are half as many nodes, plus half a node for each boundary node. n nodes, b
- * of them on the two circles, make 2 n - b triangles. The flux through the outer circle is 2 pi.
- * Second derivatives of log r are at most 1 / 0.5^2, so the error of linear interpolation on
- * equilateral triangles is at most d^2 / 6 * 4, and the solution should not be worse. */
+ * Results to check:
+ *   nodes      Equilateral triangles with edges of length d have 2 / (sqrt(3) d^2) nodes per area.
+ *              Each boundary node adds half a node.
+ *   triangles  n nodes, b of them on the two circles, form 2 n - b triangles.
+ *   flux       The flux through the outer circle is 2 pi.
+ *   error      Second derivatives of log r are at most 1 / 0.5^2, so linear interpolation on
+ *              equilateral triangles has an error of at most d^2 / 6 * 4. The solution should not
+ *              have a larger one.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -25,17 +29,17 @@
 static const double inner_radius = 0.5, outer_radius = 1, d = 0.03;
 enum { INNER_CIRCLE = 1, OUTER_CIRCLE = 2 };
 
-/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
+/* The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
   MPI_Comm comm;
-  int64_t owned, all;          /* all: including the ghosts */
+  int64_t owned, all;          /* all = owned + ghosts */
   double *xy;                  /* [all][2] */
   int32_t *tags;               /* [all] */
   int64_t triangles, *corners; /* [triangles][3] */
 } mesh;
 
-/* The exchange: the nodes whose values are sent to each rank, and the ghosts whose values come from
- * it. */
+/* The halo exchange pattern of pnpbs_placement_get_exchange, with message buffers. */
 typedef struct {
   int32_t neighbours, *ranks;
   int64_t *send_offsets, *send_nodes, *receive_offsets, *receive_nodes;
@@ -43,8 +47,8 @@ typedef struct {
   MPI_Request *requests;
 } exchange;
 
-/* The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the
- * star. The entries of row i are those from offsets[i] to offsets[i + 1] - 1. */
+/* The matrix rows of the owned nodes. Row i has a diagonal entry and one entry for each node of the
+ * star of node i, at offsets[i] .. offsets[i + 1] - 1. */
 typedef struct {
   int64_t *offsets, *columns;
   double *diagonal, *values;
@@ -59,6 +63,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -105,9 +110,9 @@ static double cotangent(const double *a, const double *b, const double *c) {
   return (bx * cx + by * cy) / (bx * cy - by * cx);
 }
 
-/* Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
- * is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to
- * zero. */
+/* Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the integral
+ * of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle opposite to
+ * the edge ij, and every row sums to zero. Collective. */
 static void assemble(pnpbs_placement p, pnpbs_context context, const mesh *m, matrix *a) {
   int64_t entries, i, k;
   int8_t *triangle;
@@ -146,7 +151,7 @@ static double dot(const mesh *m, const double *x, const double *y) {
   return sum_over_ranks(m, part);
 }
 
-/* Copies to the ghosts the values of their owners. */
+/* Copies the values at nodes to their ghosts on other ranks. Collective. */
 static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   const int64_t *s = e->send_offsets, *r = e->receive_offsets;
   int64_t i;
@@ -162,7 +167,7 @@ static void update_ghosts(const mesh *m, const exchange *e, double *x) {
   for (i = 0; i < r[e->neighbours]; ++i) x[e->receive_nodes[i]] = e->received[i];
 }
 
-/* Computes y = A x at this rank's nodes. */
+/* Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective. */
 static void multiply(const mesh *m, const exchange *e, const matrix *a, double *x, double *y) {
   int64_t i, k;
   update_ghosts(m, e, x);
@@ -172,8 +177,8 @@ static void multiply(const mesh *m, const exchange *e, const matrix *a, double *
   }
 }
 
-/* Solves A u = 0 at the inner nodes by conjugate gradients. On the boundary u does not change,
- * because the residual there is set to zero. */
+/* Solves A u = 0 at the inner nodes by conjugate gradients. Values of u on the boundary do not
+ * change, because the residual is set to zero there. Collective. */
 static void solve(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *r = room(m->owned, sizeof(double)), *q = room(m->owned, sizeof(double));
   double *p = room(m->all, sizeof(double)), rr, rr_before, enough, alpha;
@@ -212,7 +217,8 @@ static double largest_error(const mesh *m, const double *u) {
   return largest;
 }
 
-/* Returns the root of the integral of (u - log r)^2, by the midpoints of the triangles' edges. */
+/* Returns the root of the integral of (u - log r)^2, computed with the midpoints of the edges of
+ * each triangle. Collective. */
 static double l2_error(const mesh *m, const double *u) {
   double part = 0;
   int64_t t;
@@ -231,8 +237,8 @@ static double l2_error(const mesh *m, const double *u) {
   return sqrt(sum_over_ranks(m, part));
 }
 
-/* Returns the integral of the normal derivative over the outer circle, which is the sum of A u
- * there. */
+/* Returns the integral of the normal derivative of u over the outer circle, which is the sum of A u
+ * over the nodes there. Collective. */
 static double outer_flux(const mesh *m, const exchange *e, const matrix *a, double *u) {
   double *q = room(m->owned, sizeof(double)), part = 0;
   int64_t i;
@@ -318,7 +324,7 @@ int main(int argc, char **argv) {
   int64_t i;
 
   MPI_Init(&argc, &argv);
-  m.comm = MPI_COMM_WORLD; /* any communicator */
+  m.comm = MPI_COMM_WORLD; /* or any other communicator */
   check(pnpbs_context_create_mpi(m.comm, &context), NULL);
   check(pnpbs_domain_create(context, 2, &domain), context);
   check(pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centre, inner_radius, 0, 2 * PI, INNER_CIRCLE),

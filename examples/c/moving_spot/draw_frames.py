@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the frames that moving_spot wrote, with nodes coloured by the rank that owns them.
-
-usage: draw_frames.py FOLDER PICTURE.png        needs numpy and matplotlib"""
+"""Draws the frames that moving_spot has written, with nodes coloured by the rank that owns them.
+usage: draw_frames.py FOLDER PICTURE.png
+Requires numpy and matplotlib."""
 import re
 import sys
 from pathlib import Path

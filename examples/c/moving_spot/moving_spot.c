@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * Adaptation over the ranks of an MPI program: A spot in which d is 20 times finer moves around a
- * square with a round hole, like a refined region that follows the result of a solver. Between
- * frames the program replaces the spacing of the placement, and the next run starts from the
- * current nodes. No rank ever holds all nodes.
+ * Repeated adaptation over the ranks of an MPI program. A spot in which d is 20 times smaller moves
+ * around the hole of a square, as a refined region follows a feature of a solution. Between frames
+ * the program replaces the spacing of the live placement, and the next run starts from the current
+ * nodes. No rank holds all nodes.
  *
  *   mpirun -np 4 ./moving_spot [FOLDER]
  *
- * If a folder is given, which must exist, every rank writes its nodes of every frame as a CSV file;
- * draw_frames.py makes a picture of them.
+ * If a folder is given, every rank writes its nodes of every frame into it as a CSV file, and
+ * draw_frames.py draws them; the folder must exist.
  *
- * What to check: The number of nodes of each frame differs by at most 8 % from the number that d
- * demands. This is the integral of 2 / (sqrt(3) d^2) over the domain, plus half a node for each
- * boundary node. Between frames the numbers of inserted and deleted nodes are about equal. */
+ * Results to check: the number of nodes of each frame should be the integral of
+ * 2 / (sqrt(3) d^2) over the domain plus half of the boundary nodes, to within 8 %. Between frames
+ * about as many nodes are inserted as deleted.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -33,9 +34,9 @@ static void check(pnpbs_status status, pnpbs_context context) {
 /* ---------------------------------------------------------------- the spacing ----------- */
 
 typedef struct {
-  double x, y, radius; /* the spot */
-  double fine, coarse; /* d in it and far from it */
-  double slope;        /* growth of d in between */
+  double x, y, radius; /* centre and radius of the spot */
+  double fine, coarse; /* d inside the spot and far away */
+  double slope;        /* growth of d per distance in between */
 } spot;
 
 static double spacing_at(const spot *s, double x, double y) {
@@ -55,6 +56,8 @@ static void move_to_frame(spot *s, int frame) {
   s->y = 0.5 + 0.32 * sin(angle);
 }
 
+/* Returns the number of nodes that the spacing implies inside the domain. The integral is a sum
+ * over cells of the unit square. */
 static double wanted_nodes(const spot *s) {
   const int cells = 500;
   double sum = 0;
@@ -76,7 +79,7 @@ static int64_t integer(pnpbs_placement placement, pnpbs_context context, const c
   return value;
 }
 
-/* Writes this rank's nodes: x, y, tag. */
+/* Writes x, y and tag of the nodes of this rank to FOLDER/frame_<frame>_rank_<rank>.csv. Local. */
 static void write_nodes(pnpbs_placement placement, pnpbs_context context, const char *folder,
                         int frame, int rank) {
   char path[1024];
@@ -103,7 +106,8 @@ static void write_nodes(pnpbs_placement placement, pnpbs_context context, const 
   free(xy);
 }
 
-/* Returns the largest work of a rank over the mean, or 0 if the library does not report it. */
+/* Returns the largest work of a rank over the mean, or 0 if the library has no such statistic.
+ * Collective. */
 static double imbalance_of(pnpbs_placement placement, pnpbs_context context) {
   double imbalance = 0;
   const pnpbs_status status = pnpbs_placement_get_double(placement, "imbalance", &imbalance);
@@ -133,11 +137,11 @@ int main(int argc, char **argv) {
     int64_t nodes, boundary, now_inserted, now_deleted;
     double imbalance;
     move_to_frame(&s, frame);
-    /* This call says that d has changed, although function and pointer are the same. */
+    /* The call is necessary although function and pointer are the same: it marks d as changed. */
     check(pnpbs_placement_set_spacing_callback(placement, spacing, &s), context);
     check(pnpbs_placement_run(placement), context);
 
-    /* The values are sums over all ranks, so every rank makes the calls. */
+    /* Statistics are collective and refer to all ranks. */
     nodes = integer(placement, context, "nodes");
     boundary = integer(placement, context, "boundary_nodes");
     now_inserted = integer(placement, context, "inserted");

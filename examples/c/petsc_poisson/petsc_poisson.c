@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * -Laplace u = f with a known solution, by linear finite elements in PETSc, on meshes that are
- * distributed from the start, and again with a spacing that is adapted to f. The domains are a
- * square with a hole and a box with a cavity, or the domain of a file.
+ * Solves -Laplace u = f with a known solution by linear finite elements in PETSc, on meshes that
+ * are distributed from the start. A second solve uses nodes whose spacing is adapted to f. The
+ * domains are a square with a hole and a box with a cavity, or the domain of a file.
  *
- * usage: petsc_poisson [FILE.poly|FILE.stl SPACING] [options of PETSc] */
+ *   petsc_poisson [FILE.poly|FILE.stl SPACING] [options of PETSc]
+ */
 #include <math.h>
 #include <mpi.h>
 #include <petscksp.h>
@@ -17,8 +18,8 @@ enum { OUTSIDE = 1, HOLE = 2, BODY = 3, NO_REGION = -1 };
 
 /* ---------------------------------------------------------------- the problem ------------ */
 
-/* The solution u = 1 / (1 + r^2), where r is the distance from a point divided by a length. The
- * conductivity is 1 in the cells of a region. */
+/* The known solution u = 1 / (1 + r^2), where r is the distance from `centre` over `length`. The
+ * conductivity is 1 in the cells whose label is `region`. */
 typedef struct {
   int32_t dim;
   double centre[3], length;
@@ -34,7 +35,7 @@ static double square_of_r(const peak *p, const double *x) {
 
 static double solution(const peak *p, const double *x) { return 1 / (1 + square_of_r(p, x)); }
 
-/* Returns -Laplace u. */
+/* Returns f = -Laplace u. */
 static double load(const peak *p, const double *x) {
   const double r2 = square_of_r(p, x), one = 1 + r2;
   return (2 * p->dim / (one * one) - 8 * r2 / (one * one * one)) / (p->length * p->length);
@@ -42,7 +43,7 @@ static double load(const peak *p, const double *x) {
 
 /* ---------------------------------------------------------------- finite elements --------- */
 
-/* Assigns one unknown to each vertex. */
+/* Numbers the unknowns, one at each vertex. */
 static PetscErrorCode number_unknowns(DM dm) {
   PetscSection section;
   PetscInt begin, end, p;
@@ -58,7 +59,7 @@ static PetscErrorCode number_unknowns(DM dm) {
   PetscFunctionReturn(0);
 }
 
-/* Computes the values of a function at the vertices on this rank. */
+/* Evaluates a function at all vertices on this rank. Local. */
 static PetscErrorCode values_at_vertices(DM dm, const peak *p,
                                          double (*of)(const peak *, const double *), Vec local) {
   Vec coordinates;
@@ -76,20 +77,21 @@ static PetscErrorCode values_at_vertices(DM dm, const peak *p,
   PetscFunctionReturn(0);
 }
 
-/* A cell with the points of a quadrature of second order. Point k is near corner k, whose shape
- * function is NEAR[dim] there. The other shape functions are FAR[dim]. */
+/* Barycentric coordinates of quadrature rules of second order, by dimension: at point k, which is
+ * the one next to corner k, the hat function of this corner is NEAR[dim], the others FAR[dim]. */
 static const double NEAR[] = {0, 0, 2.0 / 3, 0.58541019662496852},
                     FAR[] = {0, 0, 1.0 / 6, 0.13819660112501051};
+/* A cell: its area or volume, the gradients of the hat functions, and the quadrature points. */
 typedef struct {
   double measure, gradient[4][3], point[4][3];
 } element;
 
-/* Returns the axis of PETSc's reference cell on which corner i > 0 lies. The orientation of
- * tetrahedra is reversed. */
+/* Returns the axis of PETSc's reference cell on which corner i > 0 lies. PETSc orients tetrahedra
+ * in the opposite direction, so two of their corners are exchanged. */
 static int axis_of(int dim, int i) { return dim == 3 && i < 3 ? 2 - i : i - 1; }
 
-/* Computes the gradients from the inverse of the map from the reference cell, whose sides have
- * length 2. */
+/* Computes the element of a cell. The sides of PETSc's reference cell have length 2, which explains
+ * the factors. */
 static PetscErrorCode element_of(DM dm, PetscInt cell, int dim, element *e) {
   PetscReal origin[3], jacobian[9], inverse[9], determinant;
   int i, k, c;
@@ -143,7 +145,7 @@ static PetscErrorCode assemble(DM dm, const peak *p, Mat stiffness, Vec right) {
   PetscFunctionReturn(0);
 }
 
-/* Computes the L2 error. */
+/* Computes the error in the L2 norm. Collective. */
 static PetscErrorCode error_of(DM dm, const peak *p, Vec u, double *error) {
   PetscInt begin, end, cell;
   double square = 0;
@@ -171,14 +173,15 @@ static PetscErrorCode error_of(DM dm, const peak *p, Vec u, double *error) {
   PetscFunctionReturn(0);
 }
 
-/* Fixes u where the label marks the boundary. */
+/* Replaces the equations of the vertices on the boundary, which the label "marker" marks, by the
+ * known values. Collective. */
 static PetscErrorCode fix_boundary(DM dm, Mat stiffness, Vec known, Vec right) {
   DMLabel label;
   PetscSection section;
   PetscInt begin, end, p, value, rows = 0, *row;
   PetscFunctionBeginUser;
   PetscCall(DMGetLabel(dm, "marker", &label));
-  PetscCall(DMPlexLabelComplete(dm, label)); /* extends the label from faces to their corners */
+  PetscCall(DMPlexLabelComplete(dm, label)); /* adds the vertices of the faces */
   PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &begin, &end));
   PetscCall(PetscMalloc1(end - begin, &row));
@@ -226,9 +229,9 @@ static PetscErrorCode solve(DM dm, const peak *p, double *error) {
 
 /* ---------------------------------------------------------------- nodes ------------------- */
 
-/* Adapts d. The error of a linear element is about |f| d^2, so that d is reduced where this is
- * large, by up to a factor of three. f is copied from the vertices of the plex to the nodes of the
- * placement. */
+/* Reduces the spacing where f is large, by a factor of up to three, because the error of linear
+ * elements is about |f| d^2. f is evaluated at the vertices of the plex and sent to the nodes of
+ * the placement. Collective. */
 static PetscErrorCode adapt(pnpbs_placement placement, DM dm, PetscSF nodes, const peak *p) {
   int64_t n = 0, i;
   double *d, *at_nodes, largest = 0;
@@ -318,8 +321,8 @@ static PetscErrorCode box_with_hollow(pnpbs_context context, double errors[2]) {
   PetscFunctionReturn(0);
 }
 
-/* Solves in the domain of a file. The peak is in the middle of it, and its length is ten spacings.
- */
+/* Solves in the domain of a file. The peak of u lies in the middle of the bounding box and has the
+ * length of ten spacings. */
 static PetscErrorCode domain_of_file(pnpbs_context context, const char *path, double d,
                                      double errors[2]) {
   peak p = {strstr(path, ".poly") ? 2 : 3, {0, 0, 0}, 10 * d, NO_REGION};

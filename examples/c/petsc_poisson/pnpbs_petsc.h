@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A distributed mesh of PNPBS as PETSc's DMPlex. To use it, copy this single header into your
- * program. It needs PETSc 3.18 or later with real numbers in double precision. */
+ * Converts a distributed mesh of PNPBS into a DMPlex of PETSc. The header is self-contained: copy
+ * it next to your program. It requires PETSc 3.18 or later with real scalars in double precision.
+ */
 #ifndef PNPBS_PETSC_H
 #define PNPBS_PETSC_H
 
@@ -9,7 +10,7 @@
 #include <petscsf.h>
 #include <pnpbs/pnpbs.h>
 
-/* Turns an error of PNPBS into an error of PETSc. */
+/* Raises a PETSc error if a call of PNPBS fails. */
 #define PnpbsCall(call)                                                                \
   do {                                                                                 \
     const pnpbs_status pnpbs_status_of_call = (call);                                  \
@@ -17,7 +18,7 @@
                pnpbs_status_string(pnpbs_status_of_call));                             \
   } while (0)
 
-/* Copies the connectivity as PETSc's integers, which have 32 or 64 bits. */
+/* Copies the connectivity of the mesh as PetscInt, which has 32 or 64 bits. */
 static inline pnpbs_status pnpbs_petsc_connectivity(pnpbs_mesh mesh, int64_t capacity,
                                                     PetscInt *numbers) {
 #if defined(PETSC_USE_64BIT_INDICES)
@@ -27,8 +28,8 @@ static inline pnpbs_status pnpbs_petsc_connectivity(pnpbs_mesh mesh, int64_t cap
 #endif
 }
 
-/* Finds the point of the plex with these corners. `numbers` are the node numbers at the vertices,
- * in increasing order. */
+/* Finds the face of the plex whose corners have the node numbers `nodes`. numbers[v] is the number
+ * of the node at vertex v; it increases with v. */
 static inline PetscErrorCode pnpbs_petsc_face(DM dm, PetscInt corners, const PetscInt nodes[],
                                               PetscInt vertices, const PetscInt numbers[],
                                               PetscInt *face) {
@@ -49,7 +50,7 @@ static inline PetscErrorCode pnpbs_petsc_face(DM dm, PetscInt corners, const Pet
   PetscFunctionReturn(0);
 }
 
-/* Labels the faces of the elements that this rank owns. */
+/* Adds the labels "Face Sets" and "marker" to the facets of the elements that this rank owns. */
 static inline PetscErrorCode pnpbs_petsc_label_facets(pnpbs_mesh mesh, DM dm, PetscInt vertices,
                                                       const PetscInt numbers[]) {
   int32_t corners = 0, *nodes, *tags, *elements;
@@ -68,7 +69,8 @@ static inline PetscErrorCode pnpbs_petsc_label_facets(pnpbs_mesh mesh, DM dm, Pe
     const int32_t first = elements[2 * f], second = elements[2 * f + 1];
     PetscInt corner_numbers[3], face = -1;
     int32_t k;
-    if (first >= owned && (second < 0 || second >= owned)) continue; /* faces of ghost elements */
+    if (first >= owned && (second < 0 || second >= owned))
+      continue; /* only ghost elements have this facet */
     for (k = 0; k < corners - 1; ++k)
       corner_numbers[k] = (PetscInt)node_numbers[nodes[(corners - 1) * f + k]];
     PetscCall(pnpbs_petsc_face(dm, corners - 1, corner_numbers, vertices, numbers, &face));
@@ -79,7 +81,8 @@ static inline PetscErrorCode pnpbs_petsc_label_facets(pnpbs_mesh mesh, DM dm, Pe
   PetscFunctionReturn(0);
 }
 
-/* Computes the node number at each vertex of the plex from the ranks that own the nodes. */
+/* Fills numbers[v] with the number of the node at each vertex v of the plex, as sent by the owners
+ * of the nodes. Collective. */
 static inline PetscErrorCode pnpbs_petsc_numbers(pnpbs_mesh mesh, PetscSF nodes,
                                                  PetscInt numbers[]) {
   int64_t first = 0, owned = 0, i;
@@ -97,19 +100,19 @@ static inline PetscErrorCode pnpbs_petsc_numbers(pnpbs_mesh mesh, PetscSF nodes,
 }
 
 /** Creates a plex whose cells on each rank are the elements that the rank owns. Nothing is
- *  gathered, read or partitioned. Faces are created too. The label "Face Sets" has the tags of
- *  boundary and inner facets, and "marker" is 1 on the boundary. "Cell Sets" has the tags of the
- *  cells: those of regions, or for surfaces without a volume those of the surfaces. Cells without
- *  a tag are not in it. Collective.
- *
- *  @param[in] mesh    with any number of ghost layers; these are left out, and
- *                     DMPlexDistributeOverlap creates PETSc's own
+ * gathered, read from a file or partitioned. The plex is interpolated: it has all faces and edges.
+ * The label "Face Sets" holds the tags of boundary and inner facets, "marker" is 1 on the boundary,
+ * and "Cell Sets" holds the tags of cells: those of regions, on surfaces alone those of the
+ * surfaces. Cells with the tag 0 have no value in "Cell Sets". Collective.
+ *  @param[in] mesh    a mesh with any number of ghost layers. Ghost elements are omitted; call
+ *                     DMPlexDistributeOverlap for ghost cells
  *  @param[in] comm    the communicator of the mesh's context
- *  @param[out] dm     to be destroyed with DMDestroy
- *  @param[out] nodes  maps the nodes of the placement to the vertices of the plex. Its roots are
- * the nodes that this rank owns, in the order of pnpbs_placement_get_nodes. Its leaves are the
- * vertices on this rank in the plex's order. PetscSFBcast copies a field of the placement to the
- * vertices, and PetscSFReduce copies it back. To be destroyed with PetscSFDestroy; may be NULL */
+ *  @param[out] dm     the plex; destroy it with DMDestroy
+ *  @param[out] nodes  relates the nodes of the placement to the vertices of the plex. Its roots are
+ *                     the nodes that this rank owns, in the order of pnpbs_placement_get_nodes; its
+ *                     leaves are the vertices on this rank, in the order of the plex. PetscSFBcast
+ *                     sends a field from the nodes to the vertices, PetscSFReduce sends it back.
+ *                     Destroy it with PetscSFDestroy; may be NULL */
 static inline PetscErrorCode pnpbs_petsc_plex(pnpbs_mesh mesh, MPI_Comm comm, DM *dm,
                                               PetscSF *nodes) {
   int32_t dim = 0, corners = 0, *tags;
@@ -126,7 +129,7 @@ static inline PetscErrorCode pnpbs_petsc_plex(pnpbs_mesh mesh, MPI_Comm comm, DM
   PnpbsCall(pnpbs_petsc_connectivity(mesh, elements, cells));
   PnpbsCall(pnpbs_mesh_get_nodes(mesh, local_nodes, x, NULL, NULL, NULL, NULL));
   PnpbsCall(pnpbs_mesh_get_elements(mesh, elements, NULL, NULL, NULL, tags));
-  /* The orientation of PETSc's tetrahedra is reversed. */
+  /* PETSc orients tetrahedra in the opposite direction. */
   for (e = 0; corners == 4 && e < owned; ++e)
     PetscCall(DMPlexInvertCell(DM_POLYTOPE_TETRAHEDRON, cells + 4 * e));
   PetscCall(DMPlexCreateFromCellListParallelPetsc(

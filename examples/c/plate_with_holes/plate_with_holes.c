@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A plate of 4 by 2 with three round holes, finer around the holes, and one node exactly where a
- * load acts. Every boundary has its own tag, so that a solver can distinguish them.
+ * A plate of 4 by 2 with three round holes, a smaller spacing around the holes, and a fixed node at
+ * the point where a load acts. Every boundary has a tag of its own, by which a solver can
+ * distinguish them.
  *
- * What to check: The numbers of nodes per tag (the outline and the three circles). The area of the
- * triangles is slightly larger than that of the plate, 8 - pi (0.5^2 + 2 x 0.25^2), because the
- * circles become polygons. Euler's formula gives nodes - edges + triangles = 1 - holes = -2. */
+ * Results to check: the number of nodes of each tag; the area of the triangles, which should exceed
+ * that of the plate, 8 - pi (0.5^2 + 2 x 0.25^2), slightly, because polygons replace the circles;
+ * and Euler's formula, nodes - edges + triangles = 1 - holes = -2.
+ */
 #include <math.h>
 #include <pnpbs/pnpbs.h>
 #include <stdio.h>
@@ -24,7 +26,7 @@ static void check(pnpbs_status status, pnpbs_context context) {
 static const double centres[HOLES][2] = {{2.0, 1.0}, {0.8, 0.6}, {3.2, 1.4}};
 static const double radii[HOLES] = {0.5, 0.25, 0.25};
 
-/* Returns d: 0.04 at the holes, growing to 0.1 away from them. */
+/* Evaluates the spacing: 0.04 on the holes, growing to 0.1 with the distance from them. */
 static int32_t spacing(int64_t n, int32_t dim, const double *xyz, double *d, void *user) {
   int64_t i;
   int k;
@@ -63,8 +65,8 @@ int main(void) {
   check(pnpbs_domain_create(context, 2, &domain), context);
   check(pnpbs_domain_add_polyline(domain, PNPBS_BOUNDARY, 1, 4, &corners[0][0], side_tags, 0),
         context);
-  /* A boundary inside another one is a hole: Points behind an odd number of boundaries are inside.
-   */
+  /* A boundary inside another one is a hole: a point is inside the domain if it lies behind an odd
+   * number of boundaries. */
   for (k = 0; k < HOLES; ++k) {
     check(pnpbs_domain_add_arc(domain, PNPBS_BOUNDARY, centres[k], radii[k], 0, 2 * pi,
                                TAG_FIRST_HOLE + k),
@@ -72,7 +74,7 @@ int main(void) {
     exact -= pi * radii[k] * radii[k];
   }
   check(pnpbs_domain_add_fixed_nodes(domain, 1, &load[0][0], load_tag), context);
-  /* This call is optional, as the run checks too. It reports mistakes before the long work. */
+  /* This check is optional, because the run repeats it. It reports errors before the long work. */
   check(pnpbs_domain_check(domain), context);
 
   check(pnpbs_placement_create(context, domain, &placement), context);
@@ -85,7 +87,8 @@ int main(void) {
   if (xy == NULL || tags == NULL) return 1;
   check(pnpbs_placement_get_nodes(placement, nodes, xy, NULL, tags, NULL), context);
 
-  /* Copy each node's neighbours in the triangulation as compressed rows, with every edge twice. */
+  /* The neighbours of each node in the triangulation, in compressed rows: every edge occurs twice.
+   */
   check(pnpbs_placement_star_size(placement, &entries), context);
   offsets = malloc((size_t)(nodes + 1) * sizeof *offsets);
   neighbours = malloc((size_t)entries * sizeof *neighbours);

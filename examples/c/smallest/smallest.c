@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * The smallest program: nodes in the unit square with a spacing of 0.05.
+ * The smallest program: places nodes in the unit square with the constant spacing 0.05.
  *
- * What to check: The boundary has 4 / 0.05 = 80 nodes. The square holds 1 / (sqrt(3)/4 0.05^2) =
- * 924 triangles with edges of length 0.05. n nodes with b of them on the boundary of a domain
- * without holes make 2 n - b - 2 triangles, so there should be about 503 nodes. */
+ * Results to check: the boundary has 4 / 0.05 = 80 nodes. The area of the square is that of
+ * 1 / (sqrt(3)/4 0.05^2) = 924 equilateral triangles with edges of 0.05. In a domain without holes,
+ * n nodes, b of them on the boundary, form 2 n - b - 2 triangles, so n should be about 503.
+ */
 #include <pnpbs/pnpbs.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Ends the program after an error. Every function of the library returns a status; a negative
- * status is an error with a message. */
+/* Ends the program after an error. Functions of the library return a status; a negative one is an
+ * error, and pnpbs_last_error returns its message. */
 static void check(pnpbs_status status, pnpbs_context context) {
   if (status < 0) {
     fprintf(stderr, "%s: %s\n", pnpbs_status_string(status), pnpbs_last_error(context));
@@ -33,7 +34,7 @@ int main(void) {
   check(pnpbs_placement_set_spacing_constant(placement, 0.05), context);
   check(pnpbs_placement_run(placement), context);
 
-  /* Get the number of nodes, allocate memory, and copy the nodes. */
+  /* Results are copied into arrays of the caller, so their number is queried first. */
   check(pnpbs_placement_count(placement, &nodes), context);
   tags = malloc((size_t)nodes * sizeof *tags);
   if (tags == NULL) return 1;

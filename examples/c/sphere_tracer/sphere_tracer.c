@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * A tracer on the whole sphere by finite volumes on Voronoi cells, with bitwise equal results on
- * any number of ranks. A bell travels once around the Earth over both poles, in a wind of solid
- * rotation (D. Williamson and others, Journal of Computational Physics 102 (1992), 211-224, test
- * 1).
+ * Transport of a tracer on the whole sphere by finite volumes on Voronoi cells, with bitwise
+ * identical results on any number of ranks. A cosine bell travels once around the Earth, over both
+ * poles, in a wind of solid rotation (D. Williamson and others, Journal of Computational Physics
+ * 102 (1992), 211-224, test 1).
  *
  *   mpirun -np 4 ./sphere_tracer
  *
- * The cells are those of pnpbs_voronoi_create. Their corners are the circumcentres of the
- * triangles, which the stars list in order. The flow between two corners is the difference of a
- * stream function, so that no cell gains or loses any air. Nodes, faces and their order are the
- * same on any number of ranks, and the rank that owns a node sums its row.
+ * The volumes of the cells are those of pnpbs_voronoi_create. The corners of a cell are the
+ * circumcentres of the triangles of the star, in the order of the star. The flux through a face is
+ * the difference of a stream function between its two corners, so the net flux of air out of each
+ * cell is zero. Nodes, faces and their order do not depend on the number of ranks, and the owner of
+ * a node computes the sum over the faces of its cell.
  *
- * What to check: All digits are the same on any number of ranks. The tracer's mass is constant
- * within rounding. After one turn the bell is where it began. */
+ * Results to check: all digits are the same on any number of ranks. The mass of the tracer is
+ * conserved up to rounding. After one revolution the bell is back at its start.
+ */
 #include <math.h>
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
@@ -22,22 +24,23 @@
 
 #define PI 3.14159265358979323846
 #define DAYS 12.0
-static const double radius = 6371.22; /* kilometres, like d */
+static const double radius = 6371.22; /* kilometres, the unit of d */
 
-/* This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks. */
+/* The nodes of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+ * nearby nodes that other ranks own. */
 typedef struct {
-  int64_t owned, all; /* all: including the ghosts */
+  int64_t owned, all; /* all = owned + ghosts */
   double *x;          /* [all][3] */
   int64_t *ids;       /* [all] */
   double *volumes;    /* [owned] areas of the cells, km^2 */
 } cells;
 
-/* The faces of this rank's cells in compressed rows. Those of cell i lie between it and
+/* The faces of the owned cells in compressed rows: the neighbours of cell i across its faces are
  * cells[offsets[i] .. offsets[i + 1] - 1], counter-clockwise. */
 typedef struct {
   int64_t *offsets, *cells;
-  double *fluxes;  /* out of the cell, km^2 per day */
-  double *outward; /* [faces][3] normal times length, km */
+  double *fluxes;  /* [faces] flux out of the cell, km^2 per day */
+  double *outward; /* [faces][3] outward normal times length, km */
 } faces;
 
 static pnpbs_context context;
@@ -50,6 +53,7 @@ static void check(pnpbs_status status) {
   }
 }
 
+/* Returns zeroed memory for at least n entries, or aborts. */
 static void *room(int64_t n, size_t size) {
   void *memory = calloc((size_t)n + 1, size);
   if (memory == NULL) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -58,7 +62,7 @@ static void *room(int64_t n, size_t size) {
 
 /* ---------------------------------------------------------------- the cells -------------- */
 
-/* Returns d: 100 km in the north, 200 km in the south. */
+/* Evaluates the spacing: 100 km at the north pole, growing to 200 km at the south pole. */
 static int32_t spacing(int64_t n, int32_t dim, const double *x, double *d, void *user) {
   int64_t i;
   (void)user;
@@ -93,11 +97,12 @@ static void get_cells(cells *c) {
   pnpbs_voronoi_destroy(&voronoi);
 }
 
-/* Returns the stream function in km^2 per day, for a rotation about an axis in the equator. The
- * flow between two points of the sphere is the difference of its values. */
+/* Returns the stream function of solid rotation about an axis in the plane of the equator, in km^2
+ * per day. The flux between two points of the sphere is its difference. */
 static double stream(const double *x) { return 2 * PI / DAYS * radius * x[0]; }
 
-/* Computes the centre of the circle through three nodes, bitwise equal for any order of them. */
+/* Computes the circumcentre of three nodes on the sphere. The nodes are sorted by id first, so
+ * their order affects no bit. */
 static void corner(const cells *c, int64_t i, int64_t j, int64_t k, double *centre) {
   int64_t nodes[3] = {i, j, k}, swap;
   double u[3], v[3], n[3], length;
@@ -121,7 +126,8 @@ static void corner(const cells *c, int64_t i, int64_t j, int64_t k, double *cent
   for (a = 0; a < 3; ++a) centre[a] = radius * n[a] / length;
 }
 
-/* Computes the vector from one corner to the next, turned to the right. */
+/* Computes the outward normal of a face times its length: the vector between its corners, turned by
+ * a right angle to the right. `up` is the position of the node. */
 static void outward_of(const double *from, const double *to, const double *up, double *outward) {
   const double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2];
   outward[0] = (y * up[2] - z * up[1]) / radius;
@@ -129,8 +135,8 @@ static void outward_of(const double *from, const double *to, const double *up, d
   outward[2] = (x * up[1] - y * up[0]) / radius;
 }
 
-/* Computes the faces. A face ends at the centres of the triangles before and after its neighbour in
- * the star. */
+/* Computes the faces of the owned cells. The corners of a face are the circumcentres of the two
+ * triangles at the edge to its neighbour. Collective. */
 static void get_faces(const cells *c, faces *f) {
   int64_t entries, i, k;
   check(pnpbs_placement_star_size(placement, &entries));
@@ -154,13 +160,15 @@ static void get_faces(const cells *c, faces *f) {
 
 /* ---------------------------------------------------------------- the tracer ------------- */
 
-/* Returns a bell around a point on the equator, with a radius of a third of the Earth's. */
+/* Returns the initial tracer: a cosine bell around a point of the equator, with a third of the
+ * radius as width. */
 static double bell(const double *x) {
   const double way = radius * acos(fmax(-1, fmin(1, x[1] / radius))), width = radius / 3;
   return way < width ? 500 * (1 + cos(PI * way / width)) : 0;
 }
 
-/* Computes the gradient of q at this rank's nodes by Gauss' theorem, and at their ghosts. */
+/* Computes the gradient of q at the owned nodes by Gauss's theorem, and updates the ghosts.
+ * Collective. */
 static void gradient(const cells *c, const faces *f, const double *q, double *g) {
   int64_t i, k;
   int a;
@@ -173,9 +181,9 @@ static void gradient(const cells *c, const faces *f, const double *q, double *g)
   check(pnpbs_placement_update_ghosts(placement, c->all, 3, g));
 }
 
-/* Returns the value at the face between two cells, seen from the one that it flows out of. It is a
- * third of the value extrapolated with the gradient plus two thirds of the mean of both, which is
- * of third order for regular cells. */
+/* Returns q at the face between the upwind cell `out` and the cell `in`: a third of the value
+ * extrapolated with the gradient of `out`, plus two thirds of the mean of both cells. The order is
+ * three on regular cells. */
 static double at_face(const cells *c, const double *q, const double *g, int64_t out, int64_t in) {
   double told = q[out];
   int a;
@@ -183,7 +191,8 @@ static double at_face(const cells *c, const double *q, const double *g, int64_t 
   return (told + q[out] + q[in]) / 3;
 }
 
-/* Computes the rate of change of q at this rank's nodes, which is the inflow through the faces. */
+/* Computes the rate of change of q at the owned nodes, which is the net inflow through the faces
+ * over the volume. Updates the ghosts of q. Collective. */
 static void rate(const cells *c, const faces *f, double *q, double *g, double *dq) {
   int64_t i, k;
   check(pnpbs_placement_update_ghosts(placement, c->all, 1, q));
@@ -199,7 +208,7 @@ static void rate(const cells *c, const faces *f, double *q, double *g, double *d
   }
 }
 
-/* Makes a step of the Runge-Kutta method of fourth order. */
+/* Advances q by one step (in days) of the classical Runge-Kutta method. Collective. */
 static void advance(const cells *c, const faces *f, double step, double *q) {
   static const double ahead[4] = {0, 0.5, 0.5, 1}, weight[4] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
   double *stage = room(c->all, sizeof(double)), *dq = room(c->owned, sizeof(double));
@@ -221,7 +230,8 @@ static double integral(const cells *c, const double *q) {
   return sum;
 }
 
-/* Returns the relative error in the mean over the sphere. */
+/* Returns the root mean square error of q over the sphere, relative to the root mean square of the
+ * bell. Collective. */
 static double error(const cells *c, const double *q) {
   double *off = room(c->owned, sizeof(double)), *size = room(c->owned, sizeof(double)), result;
   int64_t i;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// -Laplace u = f with a known solution, by linear finite elements in deal.II, on meshes that are
-// distributed from the start, and again with a spacing that is adapted to f. The domains are a
-// square with a hole and a box with a cavity, or the domain of a file.
+// Solves -Laplace u = f with a known solution by linear finite elements in deal.II, on meshes that
+// are distributed from the start. A second solve uses nodes whose spacing is adapted to f. The
+// domains are a square with a hole and a box with a cavity, or the domain of a file.
 //
-// usage: dealii_poisson [FILE.poly|FILE.stl SPACING]
+//   dealii_poisson [FILE.poly|FILE.stl SPACING]
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
@@ -45,7 +45,7 @@ using Field = LinearAlgebra::distributed::Vector<double>;
 
 enum { OUTSIDE = 1, HOLE = 2 };
 
-// The solution u = 1 / (1 + r^2), where r is the distance from a point divided by a length.
+// The known solution u = 1 / (1 + r^2), where r is the distance from `centre` over `length`.
 template <int dim>
 struct Peak : Function<dim> {
   Point<dim> centre;
@@ -57,14 +57,14 @@ struct Peak : Function<dim> {
     return 1 / (1 + x.distance_square(centre) / (length * length));
   }
 
-  // Returns -Laplace u.
+  // Returns f = -Laplace u.
   double load(const Point<dim>& x) const {
     const double r2 = x.distance_square(centre) / (length * length), one = 1 + r2;
     return (2 * dim / (one * one) - 8 * r2 / (one * one * one)) / (length * length);
   }
 };
 
-// The degrees of freedom of linear elements on a mesh.
+// Linear elements on a mesh, with their degrees of freedom and quadrature.
 template <int dim>
 struct Elements {
   const FE_SimplexP<dim> element{1};
@@ -80,7 +80,8 @@ struct Elements {
   }
 };
 
-// Returns the constraints that fix u on the whole boundary.
+// Returns constraints that set u to the known solution on the whole boundary. The faces where the
+// ghost cells end are no boundary.
 template <int dim>
 AffineConstraints<double> boundary_values(const Elements<dim>& fem, const Peak<dim>& peak) {
   AffineConstraints<double> constraints(fem.relevant);
@@ -92,6 +93,7 @@ AffineConstraints<double> boundary_values(const Elements<dim>& fem, const Peak<d
   return constraints;
 }
 
+// Assembles matrix and right-hand side from the cells that this rank owns. Collective.
 template <int dim>
 void assemble(const Elements<dim>& fem, const Peak<dim>& peak,
               const AffineConstraints<double>& constraints, TrilinosWrappers::SparseMatrix& matrix,
@@ -123,7 +125,7 @@ void assemble(const Elements<dim>& fem, const Peak<dim>& peak,
   right.compress(VectorOperation::add);
 }
 
-// Solves the equation. Returns the L2 error.
+// Solves the problem and returns the error in the L2 norm. Collective.
 template <int dim>
 double solve(const Mesh<dim>& mesh, const Peak<dim>& peak) {
   const Elements<dim> fem(mesh);
@@ -150,9 +152,9 @@ double solve(const Mesh<dim>& mesh, const Peak<dim>& peak) {
   return VectorTools::compute_global_error(mesh, errors, VectorTools::L2_norm);
 }
 
-// Adapts d. The error of a linear element is about |f| d^2, so that d is reduced where this is
-// large, by up to a factor of three. f is copied from the vertices of the triangulation to the
-// nodes of the placement.
+// Reduces the spacing where f is large, by a factor of up to three, because the error of linear
+// elements is about |f| d^2. f is evaluated at the vertices of the triangulation and sent to the
+// nodes of the placement. Collective.
 template <int dim>
 void adapt(pnpbs_placement placement, const Mesh<dim>& mesh, const pnpbs_dealii::NodeMap& nodes,
            const Peak<dim>& peak) {
@@ -170,7 +172,8 @@ void adapt(pnpbs_placement placement, const Mesh<dim>& mesh, const pnpbs_dealii:
   check(pnpbs_placement_set_spacing_at_nodes(placement, d.size(), d.data()));
 }
 
-// Returns the errors before and after d is adapted.
+// Places nodes and solves twice, with the constant spacing d and with an adapted one. Returns both
+// errors. Collective.
 template <int dim>
 std::pair<double, double> run(pnpbs_context context, pnpbs_domain domain, const Peak<dim>& peak,
                               double d) {
@@ -216,7 +219,8 @@ void square_and_box(pnpbs_context context) {
       << std::endl;
 }
 
-// Solves in the domain of a file. The peak is in the middle of it, and its length is ten spacings.
+// Solves in the domain of a file. The peak of u lies in the middle of the bounding box and has the
+// length of ten spacings.
 template <int dim>
 void domain_of_file(pnpbs_context context, const char* path, double d) {
   double low[3], high[3];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A distributed mesh of PNPBS as deal.II's parallel::fullydistributed::Triangulation. To use it,
-// copy this single header into your program. It needs C++17 and deal.II 9.4 or later with MPI.
+// Converts a distributed mesh of PNPBS into a parallel::fullydistributed::Triangulation of deal.II.
+// The header is self-contained: copy it next to your program. It requires C++17 and deal.II 9.4 or
+// later with MPI.
 #ifndef PNPBS_DEALII_H
 #define PNPBS_DEALII_H
 
@@ -22,32 +23,32 @@
 
 namespace pnpbs_dealii {
 
-/** Turns an error of PNPBS into an exception. Local. Throws std::runtime_error with the meaning of
- *  the status if it is an error; warnings pass. */
+/** Throws std::runtime_error with the meaning of the status if it is an error. Positive statuses
+ * are accepted. Local. */
 inline void check(pnpbs_status status) {
   if (status < 0) throw std::runtime_error(std::string("PNPBS: ") + pnpbs_status_string(status));
 }
 
-/** Relates the nodes of a placement to the vertices of a triangulation. A
- *  LinearAlgebra::distributed::Vector on the partitioner holds a field: its locally owned elements
- *  are the values at the nodes that this rank owns, in the order of pnpbs_placement_get_nodes, and
- *  its ghosts are the values at the other vertices here. update_ghost_values copies a field of the
- *  placement to the vertices, and compress copies it back. */
+/** A map between the nodes of a placement and the vertices of a triangulation. A
+ *  LinearAlgebra::distributed::Vector on `partitioner` holds a field: its locally owned elements
+ * are the values at the nodes that this rank owns, in the order of pnpbs_placement_get_nodes, and
+ * its ghosts are the values at the other vertices on this rank. update_ghost_values sends a field
+ * from the nodes to the vertices, and compress sends it back. */
 struct NodeMap {
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
-  /** [n_vertices] the global number of the node at each vertex, an index into such a vector;
-   *  numbers::invalid_dof_index at a vertex that is not the mesh's */
+  /** [n_vertices] The global number of the node at each vertex, which is an index of such a vector,
+   *  or numbers::invalid_dof_index if the vertex does not belong to the mesh. */
   std::vector<dealii::types::global_dof_index> number_at_vertex;
 };
 
-/** The boundary id of faces at which the ghost cells of a rank end, inside the mesh. For deal.II
- *  they are boundary faces of the ghost cells. Skip them in a loop over all boundary ids. */
+/** Boundary id of the faces inside the mesh where the ghost cells of a rank end. deal.II treats
+ * them as boundary faces of the ghost cells, so a loop over all boundary ids must skip this one. */
 constexpr dealii::types::boundary_id end_of_ghosts = dealii::numbers::invalid_boundary_id - 1;
 
 namespace internal {
 
-/** The arrays of a mesh, as the functions of pnpbs.h describe them. */
+/** A copy of the arrays of a mesh, as documented at the functions pnpbs_mesh_get_... in pnpbs.h. */
 struct Mesh {
   int32_t dim = 0, corners = 0;
   int64_t owned_nodes = 0, nodes = 0, owned_elements = 0, elements = 0, facets = 0;
@@ -81,8 +82,8 @@ struct Mesh {
                                 facet_elements.data(), nullptr, facet_inner.data(), nullptr));
   }
 
-  /** Returns for each element its cell here, or -1. deal.II needs the elements of this rank and
-   *  those that touch them. */
+  /** Returns [elements] the cell index of each element, or -1. deal.II requires the owned elements
+   *  and those that share a node with them as cells. */
   std::vector<int64_t> cells() const {
     std::vector<char> touched(nodes, 0);
     std::vector<int64_t> cell_of(elements, -1);
@@ -95,8 +96,8 @@ struct Mesh {
     return cell_of;
   }
 
-  /** Calls function(facet, cell, face) for facets of cells, with faces as deal.II numbers those of
-   *  a simplex. */
+  /** Calls function(facet, cell, face) for the facets of cells that are inner or not, as `inner`
+   *  says. `face` is deal.II's number of the face in the cell. */
   template <typename Function>
   void for_facets(const std::vector<int64_t>& cell_of, bool inner, Function function) const {
     for (int64_t i = 0; i < 2 * facets; ++i) {
@@ -112,8 +113,8 @@ struct Mesh {
   }
 };
 
-/** Throws if the mesh has no ghost layer, that is, if ranks share nodes and none has ghost
- * elements. */
+/** Throws on all ranks if the mesh has no ghost layer. This is the case if ranks share nodes but no
+ * rank has ghost elements. Collective. */
 inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
   const bool ghosts = mesh.elements > mesh.owned_elements, shares = mesh.shared_nodes > 0;
   if (dealii::Utilities::MPI::max(shares ? 1 : 0, comm) == 1 &&
@@ -121,14 +122,15 @@ inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
     throw std::runtime_error("deal.II needs a mesh with a ghost layer");
 }
 
-/** Returns a tag as an id, which is unsigned in deal.II. Throws if the tag is negative. */
+/** Converts a tag to an id, which is unsigned in deal.II. Throws std::runtime_error if it is
+ * negative. */
 inline unsigned int id_of_tag(int32_t tag) {
   if (tag < 0)
     throw std::runtime_error("deal.II has no negative ids, and the mesh has a tag below 0");
   return static_cast<unsigned int>(tag);
 }
 
-/** Adds a cell, with no ids at its faces. */
+/** Adds a cell without boundary ids to the description. */
 template <int dim, int spacedim>
 void add_cell(const dealii::CellData<dim>& corners, dealii::types::coarse_cell_id id,
               dealii::types::subdomain_id owner,
@@ -144,7 +146,8 @@ void add_cell(const dealii::CellData<dim>& corners, dealii::types::coarse_cell_i
   description.cell_infos[0].push_back(info);
 }
 
-/** Adds the elements that are cells here. vertex_at has the vertex of each node, or -1. */
+/** Adds the cells of this rank and their vertices to the description. vertex_at[node] becomes the
+ * vertex of each node, or -1. */
 template <int dim, int spacedim>
 void add_elements(const Mesh& mesh, const std::vector<int64_t>& cell_of,
                   dealii::TriangulationDescription::Description<dim, spacedim>& description,
@@ -165,15 +168,17 @@ void add_elements(const Mesh& mesh, const std::vector<int64_t>& cell_of,
       cell.vertices[k] = vertex_at[node];
     }
     add_cell(cell, mesh.element_numbers[e], mesh.element_owners[e], description);
-    // deal.II uses an id only if the face is at the boundary of this rank's cells. Faces where the
-    // ghosts end are, and get this id unless they are facets of the mesh.
+    // deal.II uses an id only if the face has no cell on its other side on this rank. This is so
+    // where the ghost cells end. If the face is a facet of the mesh, the id of its tag follows and
+    // replaces this one.
     if (e >= mesh.owned_elements)
       for (unsigned int face = 0; face <= dim; ++face)
         description.cell_infos[0].back().boundary_ids.emplace_back(face, end_of_ghosts);
   }
 }
 
-/** Adds a simplex that is not part of the mesh. deal.II needs one on a rank without elements. */
+/** Adds an artificial cell, which is not part of the mesh. deal.II requires a cell also on a rank
+ * without elements. */
 template <int dim, int spacedim>
 void add_artificial_cell(
     dealii::TriangulationDescription::Description<dim, spacedim>& description) {
@@ -187,7 +192,7 @@ void add_artificial_cell(
   add_cell(cell, 0, dealii::numbers::artificial_subdomain_id, description);
 }
 
-/** Returns the node numbers at the vertices, and the ranks that own the nodes. */
+/** Builds the map between nodes and vertices. Collective. */
 inline NodeMap map_nodes(const Mesh& mesh, const std::vector<int64_t>& vertex_at,
                          std::size_t n_vertices, MPI_Comm comm) {
   using dealii::IndexSet;
@@ -206,19 +211,21 @@ inline NodeMap map_nodes(const Mesh& mesh, const std::vector<int64_t>& vertex_at
 
 }  // namespace internal
 
-/** Creates a triangulation whose cells on each rank are the elements that the rank owns. Its ghost
- *  cells are those of other ranks that touch them. Nothing is gathered, read or partitioned. The id
- *  of a coarse cell is the number of the element. The mesh may be destroyed afterwards.
- *  Boundary ids are the tags of the facets of the boundary. Inner faces have no boundary ids in
- *  deal.II; those on inner curves or surfaces have the tag as user index, until you set another.
- *  Faces where the ghost cells end have the id end_of_ghosts. Material ids are the tags of the
- *  elements. Collective.
- *  Throws std::runtime_error for an error of PNPBS, a mesh of other dimensions, one without ghost
- *  elements on several ranks, negative tags, and more nodes than types::global_dof_index counts.
- *  @param[in] mesh            with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh).
- *                             For surfaces without a volume dim is 2 and spacedim 3
- *  @param[out] triangulation  empty before, on the communicator of the mesh's context
- *  @return                    the nodes at its vertices */
+/** Creates a triangulation whose cells on each rank are the elements that the rank owns, and as
+ *  ghost cells the elements of other ranks that share a node with them. Nothing is gathered, read
+ *  from a file or partitioned. The id of a coarse cell is the number of the element. All data are
+ *  copied, so the mesh may be destroyed afterwards. Boundary ids are the tags of boundary facets.
+ *  Inner faces have no boundary ids in deal.II; those on inner curves or surfaces have the tag as
+ *  user index. Faces where the ghost cells end have the id end_of_ghosts. Material ids are the tags
+ *  of the elements. Collective.
+ *  Throws std::runtime_error for an error of PNPBS, a mesh of other dimensions, a mesh without
+ * ghost layers on several ranks, negative tags, and more nodes than types::global_dof_index can
+ * number.
+ *  @param[in] mesh            a mesh with one ghost layer or more, as created by
+ *                             pnpbs_mesh_create(placement, 1, &mesh). On surfaces alone dim is 2
+ *                             and spacedim 3
+ *  @param[out] triangulation  must be empty, on the communicator of the mesh's context
+ *  @return                    the map between nodes and vertices */
 template <int dim, int spacedim>
 NodeMap make_triangulation(
     pnpbs_mesh mesh,

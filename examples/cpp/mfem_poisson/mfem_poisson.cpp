@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// -Laplace u = f with a known solution, by linear finite elements in MFEM, on meshes that are
-// distributed from the start, and again with a spacing that is adapted to f. The domains are a
-// square with a hole and a box with a cavity, or the domain of a file.
+// Solves -Laplace u = f with a known solution by linear finite elements in MFEM, on meshes that are
+// distributed from the start. A second solve uses nodes whose spacing is adapted to f. The domains
+// are a square with a hole and a box with a cavity, or the domain of a file.
 //
-// usage: mfem_poisson [FILE.poly|FILE.stl SPACING]
+//   mfem_poisson [FILE.poly|FILE.stl SPACING]
 #include <mpi.h>
 #include <pnpbs/pnpbs_mpi.h>
 
@@ -24,7 +24,7 @@ using pnpbs_mfem::check;
 
 enum { OUTSIDE = 1, HOLE = 2, BODY = 3 };
 
-// The solution u = 1 / (1 + r^2), where r is the distance from a point divided by a length.
+// The known solution u = 1 / (1 + r^2), where r is the distance from `centre` over `length`.
 struct Peak {
   int dim;
   double centre[3], length;
@@ -37,15 +37,15 @@ struct Peak {
 
   double value(const double* x) const { return 1 / (1 + square_of_r(x)); }
 
-  // Returns -Laplace u.
+  // Returns f = -Laplace u.
   double load(const double* x) const {
     const double r2 = square_of_r(x), one = 1 + r2;
     return (2 * dim / (one * one) - 8 * r2 / (one * one * one)) / (length * length);
   }
 };
 
-// Solves the equation. u is fixed on the whole boundary, and the conductivity is 1 in the elements
-// with this attribute. Returns the L2 error.
+// Solves the problem and returns the error in the L2 norm. u is known on the whole boundary. The
+// conductivity is 1 in the elements with this attribute and 0 elsewhere. Collective.
 double solve(mfem::ParMesh& mesh, const Peak& peak, int attribute) {
   mfem::FunctionCoefficient exact([&](const mfem::Vector& x) { return peak.value(x.GetData()); });
   mfem::FunctionCoefficient load([&](const mfem::Vector& x) { return peak.load(x.GetData()); });
@@ -84,9 +84,9 @@ double solve(mfem::ParMesh& mesh, const Peak& peak, int attribute) {
   return u.ComputeL2Error(exact);
 }
 
-// Adapts d. The error of a linear element is about |f| d^2, so that d is reduced where this is
-// large, by up to a factor of three. f is copied from the vertices of the mesh to the nodes of the
-// placement.
+// Reduces the spacing where f is large, by a factor of up to three, because the error of linear
+// elements is about |f| d^2. f is evaluated at the vertices of the mesh and sent to the nodes of
+// the placement. Collective.
 void adapt(pnpbs_placement placement, const mfem::ParMesh& mesh, const pnpbs_mfem::NodeMap& nodes,
            const Peak& peak) {
   std::vector<double> at_vertices(mesh.GetNV());
@@ -103,7 +103,8 @@ void adapt(pnpbs_placement placement, const mfem::ParMesh& mesh, const pnpbs_mfe
   check(pnpbs_placement_set_spacing_at_nodes(placement, n, d.data()));
 }
 
-// Returns the errors before and after d is adapted.
+// Places nodes and solves twice, with the constant spacing d and with an adapted one. Returns both
+// errors. Collective.
 std::pair<double, double> run(pnpbs_context context, pnpbs_domain domain, const Peak& peak,
                               double d, int attribute) {
   double errors[2];
@@ -151,8 +152,8 @@ void square_and_box(pnpbs_context context) {
               << in_space.first << std::endl;
 }
 
-// Solves in the domain of a file. The peak is in the middle of it, and its length is ten spacings.
-// No element has a tag, so their attribute is 1.
+// Solves in the domain of a file. The peak of u lies in the middle of the bounding box and has the
+// length of ten spacings. The elements have no tags, so their attribute is 1.
 void domain_of_file(pnpbs_context context, const char* path, double d) {
   const int dim = std::string(path).find(".poly") != std::string::npos ? 2 : 3;
   double low[3], high[3];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A distributed mesh of PNPBS as MFEM's ParMesh. To use it, copy this single header into your
-// program. It needs C++17 and MFEM 4.5 or later with MPI.
+// Converts a distributed mesh of PNPBS into a ParMesh of MFEM. The header is self-contained: copy
+// it next to your program. It requires C++17 and MFEM 4.5 or later with MPI.
 #ifndef PNPBS_MFEM_H
 #define PNPBS_MFEM_H
 
@@ -28,20 +28,21 @@
 
 namespace pnpbs_mfem {
 
-/** Turns an error of PNPBS into an exception. Local. Throws std::runtime_error with the meaning of
- *  the status if it is an error; warnings pass. */
+/** Throws std::runtime_error with the meaning of the status if it is an error. Positive statuses
+ * are accepted. Local. */
 inline void check(pnpbs_status status) {
   if (status < 0) throw std::runtime_error(std::string("PNPBS: ") + pnpbs_status_string(status));
 }
 
-/** Relates the nodes of a placement to the vertices of a mesh. The values of a ParGridFunction of
- *  linear elements (H1_FECollection of order 1, one component) are those at the vertices. */
+/** A map between the nodes of a placement and the vertices of a mesh. The local values of a
+ *  ParGridFunction of linear elements (H1_FECollection of order 1, one component) are those at the
+ *  vertices. */
 class NodeMap {
  public:
-  /** [GetNV()] the global number of the node at each vertex */
+  /** [GetNV()] The global number of the node at each vertex. */
   std::vector<int64_t> number_at_vertex;
 
-  /** Copies a field of the placement to the vertices. Collective.
+  /** Sends a field from the nodes of the placement to the vertices. Collective.
    *  @param[in] at_nodes      values at the nodes that this rank owns, in the order of
    *                           pnpbs_placement_get_nodes
    *  @param[out] at_vertices  [GetNV()] */
@@ -49,14 +50,14 @@ class NodeMap {
     exchange(node_lists_, at_nodes, vertex_lists_, at_vertices);
   }
 
-  /** Copies a field from the vertices to the placement. A vertex that ranks share must have the
-   *  same value on each. Collective. The arguments are those of to_vertices. */
+  /** Sends a field from the vertices back to the nodes. A vertex that several ranks share must have
+   *  the same value on each of them. Collective. The arrays are those of to_vertices. */
   void to_nodes(const double* at_vertices, double* at_nodes) const {
     exchange(vertex_lists_, at_vertices, node_lists_, at_nodes);
   }
 
  private:
-  using Lists = std::map<int, std::vector<int32_t>>;  // by the rank, which can be this one
+  using Lists = std::map<int, std::vector<int32_t>>;  // key: a rank, also this one
 
   static void exchange(const Lists& from, const double* values, const Lists& to, double* results,
                        MPI_Comm comm);
@@ -65,7 +66,7 @@ class NodeMap {
   }
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  Lists node_lists_;    // owned nodes at vertices of the rank
+  Lists node_lists_;    // owned nodes that are vertices on the rank
   Lists vertex_lists_;  // vertices whose nodes the rank owns
 
   friend class Writer;
@@ -98,18 +99,18 @@ inline void NodeMap::exchange(const Lists& from, const double* values, const Lis
   }
 }
 
-/** The result of make_mesh. */
+/** The result of make_mesh: the mesh, and the map between nodes and vertices. */
 struct DistributedMesh {
   std::unique_ptr<mfem::ParMesh> mesh;
   NodeMap nodes;
 
-  /** The attribute of elements whose tag is 0, and of boundary elements whose tag is 0. */
+  /** The attributes of elements and of boundary elements whose tag is 0. */
   int untagged_attribute, untagged_boundary_attribute;
 };
 
 namespace internal {
 
-/** The arrays of a mesh, as the functions of pnpbs.h describe them. */
+/** A copy of the arrays of a mesh, as documented at the functions pnpbs_mesh_get_... in pnpbs.h. */
 struct Mesh {
   int32_t dim = 0, corners = 0;
   int64_t owned_nodes = 0, nodes = 0, owned_elements = 0, elements = 0, facets = 0;
@@ -145,15 +146,16 @@ struct Mesh {
   const int32_t* corners_of(int64_t element) const { return &corner_nodes[corners * element]; }
 };
 
-/** Maps tags to attributes, which are positive in MFEM: 0 becomes one more than the largest tag. */
+/** The attributes that replace the tag 0, because attributes are positive in MFEM: one more than
+ * the largest tag. */
 struct Attributes {
   int untagged_element = 0, untagged_facet = 0;
-  int facets = 0;  // whether any rank has facets
+  int facets = 0;  // 1 if any rank has facets
 
-  /** Collective. Throws std::runtime_error on all ranks for negative tags, and for the largest
-   *  integer as a tag, to which one cannot be added. */
+  /** Computes the attributes. Collective. Throws std::runtime_error on all ranks for negative tags
+   *  and for the largest 32-bit integer as a tag, which has no successor. */
   Attributes(const Mesh& mesh, MPI_Comm comm) {
-    // The largest tags, whether any is negative or too large, and whether there are facets.
+    // Largest tags of elements and facets, 1 if a tag is invalid, 1 if this rank has facets.
     int32_t extremes[4] = {0, 0, 0, mesh.facets > 0 ? 1 : 0};
     for (const int32_t tag : mesh.element_tags) {
       extremes[0] = std::max(extremes[0], tag);
@@ -179,14 +181,14 @@ struct Attributes {
   }
 };
 
-/** A vertex, edge or face as the increasing numbers of its nodes, followed by -1. */
+/** A vertex, edge or face, as the increasing numbers of its nodes, padded with -1. */
 using Entity = std::array<int64_t, 3>;
 
-/** Entities by dimension whose elements belong to the same set of ranks. */
+/** The entities that one set of ranks shares: vertices, edges and faces. */
 using Group = std::array<std::vector<Entity>, 3>;
 
-/** Throws if the mesh has no ghost layer, that is, if ranks share nodes and none has ghost
- * elements. */
+/** Throws on all ranks if the mesh has no ghost layer. This is the case if ranks share nodes but no
+ * rank has ghost elements. Collective. */
 inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
   int there[2] = {mesh.shared_nodes > 0, mesh.elements > mesh.owned_elements};
   MPI_Allreduce(MPI_IN_PLACE, there, 2, MPI_INT, MPI_MAX, comm);
@@ -196,10 +198,11 @@ inline void check_ghosts(const Mesh& mesh, MPI_Comm comm) {
 
 }  // namespace internal
 
-/** Writes the part of a rank in MFEM's format of parallel meshes, and relates nodes to vertices. */
+/** A writer of the part of this rank in MFEM's format of parallel meshes, which also builds the map
+ * between nodes and vertices. */
 class Writer {
  public:
-  /** Collective. Throws as make_mesh. */
+  /** Copies the mesh and finds the shared entities. Collective. Throws as make_mesh. */
   Writer(pnpbs_mesh mesh, MPI_Comm comm) : comm_(comm), mesh_(mesh), attributes_(mesh_, comm) {
     internal::check_ghosts(mesh_, comm);
     MPI_Comm_rank(comm, &rank_);
@@ -226,7 +229,7 @@ class Writer {
     write_groups(out);
   }
 
-  /** Returns the relation between nodes and vertices. Local. */
+  /** Returns the map between nodes and vertices. Local. */
   NodeMap nodes() const {
     NodeMap map;
     map.comm_ = comm_;
@@ -234,7 +237,7 @@ class Writer {
       map.number_at_vertex.push_back(mesh_.node_numbers[node_at_[v]]);
       map.vertex_lists_[mesh_.node_owners[node_at_[v]]].push_back(static_cast<int32_t>(v));
     }
-    std::vector<std::pair<int32_t, int32_t>> at;  // ranks and their owned nodes
+    std::vector<std::pair<int32_t, int32_t>> at;  // (rank, owned node that is a vertex there)
     for (int64_t e = 0; e < mesh_.elements; ++e)
       for (int32_t k = 0; k < mesh_.corners; ++k)
         if (mesh_.corners_of(e)[k] < mesh_.owned_nodes)
@@ -246,7 +249,7 @@ class Writer {
   }
 
  private:
-  /** Returns MFEM's number of the geometry with this number of corners. */
+  /** Returns MFEM's number of the simplex with so many corners. */
   static int geometry(int32_t corners) {
     return corners == 2 ? mfem::Geometry::SEGMENT
                         : (corners == 3 ? mfem::Geometry::TRIANGLE : mfem::Geometry::TETRAHEDRON);
@@ -262,8 +265,8 @@ class Writer {
     }
   }
 
-  /** Writes a facet with the orientation of its element, so that a triangle of the boundary of a
-   *  body is counter-clockwise seen from outside. */
+  /** Writes the vertices of a facet with the orientation of its owned element: a boundary triangle
+   *  of a body is counter-clockwise as seen from outside. */
   void write_facet(int64_t facet, std::ostream& out) const {
     static const int sides[2][4][3] = {{{1, 2, -1}, {2, 0, -1}, {0, 1, -1}, {}},
                                        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -299,10 +302,10 @@ class Writer {
     out.precision(precision);
   }
 
-  /** Finds the other ranks that have elements at the vertices, edges or faces of this rank, which
-   *  are the entities with this number of corners. */
+  /** Finds the entities with so many corners (1: vertices, 2: edges, 3: faces) that this rank
+   * shares with others, from its ghost elements, and adds them to the groups. */
   void find_shared(int32_t corners) {
-    std::vector<std::pair<internal::Entity, int32_t>> found;  // entities and ranks
+    std::vector<std::pair<internal::Entity, int32_t>> found;  // (entity, rank with an element)
     std::vector<char> of_ghosts(mesh_.nodes, 0);
     for (int64_t i = mesh_.corners * mesh_.owned_elements; i < mesh_.corners * mesh_.elements; ++i)
       of_ghosts[mesh_.corner_nodes[i]] = 1;
@@ -369,28 +372,29 @@ class Writer {
   int rank_ = 0;
   internal::Mesh mesh_;
   internal::Attributes attributes_;
-  std::vector<int32_t> vertex_at_;  // for each node, or -1
-  std::vector<int32_t> node_at_;    // for each vertex: local indices, increasing
-  std::map<std::vector<int32_t>, internal::Group> groups_;  // by their ranks
+  std::vector<int32_t> vertex_at_;  // [nodes] the vertex of each node, or -1
+  std::vector<int32_t> node_at_;    // [vertices] local index of each node, increasing
+  std::map<std::vector<int32_t>, internal::Group> groups_;  // key: the ranks that share them
 };
 
-/** Writes the part of this rank in MFEM's format of parallel meshes ("MFEM mesh v1.2"), such as
- *  into the file mesh.000003 on rank 3. MFEM's ParMesh and GLVis read it, on as many ranks.
+/** Writes the part of this rank in MFEM's format of parallel meshes ("MFEM mesh v1.2"), for example
+ *  into the file mesh.000003 on rank 3. ParMesh and GLVis read it on the same number of ranks.
  *  Collective. Throws as make_mesh. */
 inline void write_mesh(pnpbs_mesh mesh, MPI_Comm comm, std::ostream& out) {
   Writer(mesh, comm).write(out);
 }
 
 /** Creates a mesh whose elements on each rank are those that the rank owns. Nothing is gathered,
- *  read or partitioned. The mesh of PNPBS may be destroyed afterwards. Attributes of elements are
- *  their tags: those of regions, or for surfaces without a volume those of the surfaces. Boundary
- *  elements are the facets, including inner ones, each on one rank, with their tags as attributes.
- *  MFEM's attributes are positive: If a tag is 0, the attribute is one more than the largest tag.
- *  Collective. Throws std::runtime_error on all ranks for a mesh without ghost elements on several
- *  ranks, negative tags, more nodes than HYPRE_BigInt counts, and closed surfaces without a volume:
- *  MFEM ends the program where a parallel mesh has no boundary elements. For an error of PNPBS,
- *  such as a dead handle, it throws where that occurs.
- *  @param[in] mesh  with a ghost layer or more: pnpbs_mesh_create(placement, 1, &mesh)
+ * read from a file or partitioned. All data are copied, so the mesh of PNPBS may be destroyed
+ * afterwards. Attributes of elements are their tags: those of regions, on surfaces alone those of
+ * the surfaces. Boundary elements are all facets, also inner ones, each on one rank, with their
+ * tags as attributes. MFEM's attributes are positive: an entity with the tag 0 has an attribute one
+ * more than the largest tag. Collective. Throws std::runtime_error on all ranks for a mesh without
+ * ghost layers on several ranks, negative tags, more nodes than HYPRE_BigInt can number, and closed
+ * surfaces alone, because MFEM aborts for a parallel mesh without boundary elements. An error of
+ * PNPBS, such as a dead handle, throws only on the ranks where it occurs.
+ *  @param[in] mesh  a mesh with one ghost layer or more, as created by
+ *                   pnpbs_mesh_create(placement, 1, &mesh)
  *  @param[in] comm  the communicator of the mesh's context */
 inline DistributedMesh make_mesh(pnpbs_mesh mesh, MPI_Comm comm) {
   int64_t all_nodes = 0;

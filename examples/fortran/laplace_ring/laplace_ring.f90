@@ -1,14 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
-! 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
-! finite element equations are assembled node by node: The row of a node comes from the triangles
-! of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
-! and without a message. examples/c/laplace_ring is the same program in C, and says what to check.
+! A finite element solver on the library's nodes, over the ranks of an MPI program. It solves
+! -Laplace u = 0 in the ring 0.5 <= r <= 1 with u = log r on both circles; the solution is log r
+! everywhere. The row of a node follows from the triangles of its Delaunay star alone, so every
+! rank assembles the rows of its own nodes without a mesh file and without messages.
+! examples/c/laplace_ring is the same program in C and explains the expected results.
 !
 !   mpirun -np 4 ./laplace_ring [FOLDER]
 !
-! If a folder is given, which must exist, every rank writes its piece of the solution.
+! If a folder is given, every rank writes its piece of the solution into it; the folder must exist.
 module ring
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -20,18 +20,18 @@ module ring
   real(c_double), parameter :: inner_radius = 0.5d0, outer_radius = 1, d = 0.03d0
   integer(c_int32_t), parameter :: inner_circle = 1, outer_circle = 2
 
-  ! This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks.
+  ! The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+  ! nearby nodes that other ranks own.
   type :: mesh
     integer :: comm
-    integer(c_int64_t) :: owned, all                ! all: including the ghosts
+    integer(c_int64_t) :: owned, all                ! all = owned + ghosts
     real(c_double), allocatable :: xy(:,:)          ! (2, all)
     integer(c_int32_t), allocatable :: tags(:)      ! (all)
     integer(c_int64_t) :: triangles
     integer(c_int64_t), allocatable :: corners(:,:) ! (3, triangles)
   end type
 
-  ! The exchange: the nodes whose values are sent to each rank, and the ghosts whose values come
-  ! from it.
+  ! The halo exchange pattern of get_exchange, with message buffers.
   type :: exchange
     integer(c_int32_t) :: neighbours
     integer(c_int32_t), allocatable :: ranks(:)
@@ -41,8 +41,8 @@ module ring
     integer, allocatable :: requests(:)
   end type
 
-  ! The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the
-  ! star. The entries of row i are those from offsets(i) to offsets(i + 1) - 1.
+  ! The matrix rows of the owned nodes. Row i has a diagonal entry and one entry for each node of
+  ! the star of node i, at offsets(i) .. offsets(i + 1) - 1.
   type :: matrix
     integer(c_int64_t), allocatable :: offsets(:), columns(:)
     real(c_double), allocatable :: diagonal(:), values(:)
@@ -94,9 +94,9 @@ contains
     cotangent = dot_product(ab, ac) / (ab(1) * ac(2) - ab(2) * ac(1))
   end function
 
-  ! Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a
-  ! triangle is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row
-  ! sums to zero.
+  ! Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the
+  ! integral of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle
+  ! opposite to the edge ij, and every row sums to zero. Collective.
   subroutine assemble(p, m, a)
     type(pnpbs_placement), intent(in) :: p
     type(mesh), intent(in) :: m
@@ -142,10 +142,10 @@ contains
     dot = sum_over_ranks(m, dot_product(x(:m%owned), y(:m%owned)))
   end function
 
-  ! Copies to the ghosts the values of their owners.
+  ! Copies the values at nodes to their ghosts on other ranks. Collective.
   subroutine update_ghosts(m, e, x)
     type(mesh), intent(in) :: m
-    type(exchange), intent(inout), asynchronous :: e ! asynchronous: changes during MPI_Waitall
+    type(exchange), intent(inout), asynchronous :: e ! asynchronous: MPI_Waitall fills its buffer
     real(c_double), intent(inout) :: x(:)
     integer :: k, n, first, ierror
     do k = 1, e%neighbours
@@ -165,7 +165,7 @@ contains
     x(e%receive_nodes) = e%received
   end subroutine
 
-  ! Computes y = A x at this rank's nodes.
+  ! Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective.
   subroutine multiply(m, e, a, x, y)
     type(mesh), intent(in) :: m
     type(exchange), intent(inout) :: e
@@ -182,8 +182,8 @@ contains
     end do
   end subroutine
 
-  ! Solves A u = 0 at the inner nodes by conjugate gradients. On the boundary u does not change,
-  ! because the residual there is set to zero.
+  ! Solves A u = 0 at the inner nodes by conjugate gradients. Values of u on the boundary do not
+  ! change, because the residual is set to zero there. Collective.
   subroutine solve(m, e, a, u)
     type(mesh), intent(in) :: m
     type(exchange), intent(inout) :: e
@@ -232,7 +232,8 @@ contains
     call MPI_Allreduce(part, largest_error, 1, MPI_DOUBLE_PRECISION, MPI_MAX, m%comm, ierror)
   end function
 
-  ! Returns the root of the integral of (u - log r)^2, by the midpoints of the triangles' edges.
+  ! Returns the root of the integral of (u - log r)^2, computed with the midpoints of the edges of
+  ! each triangle. Collective.
   function l2_error(m, u)
     type(mesh), intent(in) :: m
     real(c_double), intent(in) :: u(:)
@@ -254,8 +255,8 @@ contains
     l2_error = sqrt(sum_over_ranks(m, part))
   end function
 
-  ! Returns the integral of the normal derivative over the outer circle, which is the sum of A u
-  ! there.
+  ! Returns the integral of the normal derivative of u over the outer circle, which is the sum of A
+  ! u over the nodes there. Collective.
   function outer_flux(m, e, a, u)
     type(mesh), intent(in) :: m
     type(exchange), intent(inout) :: e
@@ -337,7 +338,7 @@ program laplace_ring
   character(len=1000) :: folder
 
   call MPI_Init(ierror)
-  m%comm = MPI_COMM_WORLD ! any communicator
+  m%comm = MPI_COMM_WORLD ! or any other communicator
   call context%create_mpi(m%comm)
   call domain%create(context)
   call domain%add_arc(PNPBS_BOUNDARY, centre, inner_radius, 0d0, 2 * pi, inner_circle)

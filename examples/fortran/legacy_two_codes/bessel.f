@@ -1,7 +1,7 @@
 C SPDX-License-Identifier: BSD-3-Clause
 C
-C The second code: the first zero of Bessel's function J0, by bisection.
-C Every value of J0 is a sum over the ranks of ICOMM.
+C The second code finds the first zero of the Bessel function J0 by
+C bisection. Every value of J0 is a sum over the ranks of ICOMM.
       SUBROUTINE BESSEL(ICOMM, ZERO)
       INTEGER ICOMM, I
       DOUBLE PRECISION ZERO, BELOW, ABOVE, BESJ0R
@@ -18,10 +18,10 @@ C     J0 is positive at 2 and negative at 3.
    10 CONTINUE
       END
 
-C J0(X) = 1/pi times the integral of cos(X sin t), t from 0 to pi, by
-C the middle of each of N intervals, which are distributed over the ranks.
-C The rule converges faster than any power of N, for the function under
-C the integral is smooth and periodic.
+C Returns J0(X), which is 1/pi times the integral of cos(X sin t) over t
+C from 0 to pi, by the midpoint rule on N intervals that are distributed
+C over the ranks of ICOMM. The rule converges faster than any power of
+C N, because the integrand is smooth and periodic. Collective.
       DOUBLE PRECISION FUNCTION BESJ0R(ICOMM, X)
       INCLUDE 'mpif.h'
       INTEGER ICOMM, N, I, NSIZE, MYRANK, IERR

@@ -1,16 +1,18 @@
 C SPDX-License-Identifier: BSD-3-Clause
 C
-C The first code: a round plate of radius 1 cools from 1 - r**2, its rim
-C held at 0: dT/dt = Laplace T. After a while only the slowest mode is
-C left, J0(z r) exp(-z**2 t) with the first zero z of J0. Linear finite
-C elements with lumped mass on the stars of the nodes, Euler's steps.
+C The first code computes the rate RATE at which a round plate of radius
+C 1 cools: dT/dt = Laplace T, with T = 1 - r**2 at the beginning and
+C T = 0 on the rim. In the end only the slowest mode remains, which is
+C J0(z r) exp(-z**2 t) with the first zero z of J0. The code uses linear
+C finite elements with lumped mass, assembled from the stars of the
+C nodes, and explicit Euler steps. Collective over ICOM.
       SUBROUTINE HEAT(ICOM, FOLDER, NNODES, RATE)
       INCLUDE 'nodes.inc'
       INTEGER ICOM, NSTEP
       CHARACTER*(*) FOLDER
       INTEGER*8 NNODES
       DOUBLE PRECISION RATE, DT, BEFORE, AFTER, TOTAL, LONGST
-C     The rate is what happens in the last quarter of TEND.
+C     The rate is measured in the last quarter of the time TEND.
       DOUBLE PRECISION TEND
       PARAMETER (TEND = 0.4D0)
       ICOMM = ICOM
@@ -29,7 +31,8 @@ C     The rate is what happens in the last quarter of TEND.
       CALL GIVEUP
       END
 
-C Places the nodes on the heat code's communicator.
+C Places the nodes, on the communicator of the heat code, and stores the
+C handles in the COMMON block. Collective.
       SUBROUTINE PLACE
       USE PNPBS
       INCLUDE 'nodes.inc'
@@ -50,8 +53,9 @@ C Places the nodes on the heat code's communicator.
       HPLC = PLC%HANDLE()
       END
 
-C Copies nodes, ghosts, stars and the exchange pattern into the COMMON
-C blocks. NNODES is the number of nodes of all ranks.
+C Copies nodes, ghosts, stars and the halo exchange pattern into the
+C COMMON blocks. Returns the number of nodes of all ranks in NNODES.
+C Collective.
       SUBROUTINE TAKE(NNODES)
       USE PNPBS
       INCLUDE 'mpif.h'
@@ -77,7 +81,7 @@ C blocks. NNODES is the number of nodes of all ranks.
       CALL PLC%GET_EXCHANGE(IRANK, ISOFF, ISND, IROFF, IRCV)
       END
 
-C The objects are no longer needed.
+C Destroys placement, domain and context. Collective.
       SUBROUTINE GIVEUP
       USE PNPBS
       INCLUDE 'nodes.inc'
@@ -92,9 +96,9 @@ C The objects are no longer needed.
       CALL CTX%DESTROY
       END
 
-C The flows between the nodes. A triangle I, J, K lets flow half the
-C cotangent of its angle at K between I and J, and a third of its area
-C belongs to I.
+C Computes the coefficients of the heat flow between the nodes. A
+C triangle I, J, K contributes half the cotangent of its angle at K to
+C the coefficient of I and J, and a third of its area to node I.
       SUBROUTINE FLOWS
       INCLUDE 'nodes.inc'
       INTEGER*8 I, IE, JE, J, K
@@ -119,8 +123,8 @@ C belongs to I.
    20 CONTINUE
       END
 
-C Twice the area of the triangle P, Q, R; the cotangents of its angles
-C at Q and R.
+C Computes A2, twice the area of the triangle P, Q, R, and COTQ and
+C COTR, the cotangents of its angles at Q and R.
       SUBROUTINE CORNER(P, Q, R, A2, COTQ, COTR)
       DOUBLE PRECISION P(2), Q(2), R(2), A2, COTQ, COTR
       A2 = (Q(1) - P(1)) * (R(2) - P(2)) - (Q(2) - P(2)) * (R(1) - P(1))
@@ -130,7 +134,7 @@ C at Q and R.
      &        + (P(2) - R(2)) * (Q(2) - R(2))) / A2
       END
 
-C The temperature at the beginning.
+C Sets the initial temperature.
       SUBROUTINE START
       INCLUDE 'nodes.inc'
       INTEGER*8 I
@@ -140,8 +144,9 @@ C The temperature at the beginning.
    10 CONTINUE
       END
 
-C The longest stable step: no rate of the system is above the largest
-C 2 DIAG / AREA (Gershgorin), and Euler's steps allow 2 over that.
+C Returns the longest stable time step. By Gershgorin's theorem no
+C eigenvalue of the system exceeds the largest 2 DIAG / AREA, and the
+C explicit Euler method is stable up to 2 over that. Collective.
       DOUBLE PRECISION FUNCTION LONGST()
       INCLUDE 'mpif.h'
       INCLUDE 'nodes.inc'
@@ -157,7 +162,8 @@ C 2 DIAG / AREA (Gershgorin), and Euler's steps allow 2 over that.
       LONGST = WHOLE(1)
       END
 
-C N of Euler's steps. The flows are taken before any node is changed.
+C Advances the temperature by N explicit Euler steps of length DT. Each
+C step computes all flows before it changes a temperature. Collective.
       SUBROUTINE MARCH(N, DT)
       INCLUDE 'nodes.inc'
       INTEGER N, ISTEP
@@ -180,7 +186,8 @@ C N of Euler's steps. The flows are taken before any node is changed.
    40 CONTINUE
       END
 
-C The temperature at the ghosts, from the ranks that own them.
+C Updates the temperature at the ghosts from the ranks that own them.
+C Collective.
       SUBROUTINE GHOSTS
       INCLUDE 'mpif.h'
       INCLUDE 'nodes.inc'
@@ -203,7 +210,7 @@ C The temperature at the ghosts, from the ranks that own them.
    30 CONTINUE
       END
 
-C The heat in the whole plate.
+C Returns the heat in the whole plate, over all ranks. Collective.
       DOUBLE PRECISION FUNCTION TOTAL()
       INCLUDE 'mpif.h'
       INCLUDE 'nodes.inc'

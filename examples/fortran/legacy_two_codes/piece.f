@@ -1,7 +1,8 @@
 C SPDX-License-Identifier: BSD-3-Clause
 C
-C This rank's piece of a picture, FOLDER/legacy_two_codes_<rank>.vtk, in
-C VTK's legacy text format: nodes, then ghosts; triangles; temperature.
+C Writes FOLDER/legacy_two_codes_<rank>.vtk, the piece of this rank in
+C VTK's legacy text format: owned nodes and ghosts, triangles, and the
+C temperature. Collective, because it updates the ghosts.
       SUBROUTINE PIECE(FOLDER)
       USE PNPBS
       INCLUDE 'mpif.h'

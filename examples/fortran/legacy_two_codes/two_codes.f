@@ -2,13 +2,14 @@ C SPDX-License-Identifier: BSD-3-Clause
 C
 C Two codes in one MPI program, in the style of old Fortran. Half of the
 C ranks solve the heat equation in a round plate on nodes from PNPBS and
-C find at which rate the plate cools. Meanwhile the other half, who know
-C nothing of PNPBS, find what the rate must be: the square of the first
-C zero of Bessel's function J0. At the end the codes swap their results.
-C Alone, a rank does one after the other.
+C measure the rate at which the plate cools. The other half, which does
+C not use PNPBS, computes the exact rate at the same time: the square of
+C the first zero of the Bessel function J0. Finally the codes exchange
+C their results. A single rank runs both codes in sequence.
 C
-C Usage: two_codes [FOLDER]   with a folder, the heat code's ranks write
-C                             the pieces of a picture into it
+C Usage: two_codes [FOLDER]   If a folder is given, the ranks of the
+C                             heat code write the pieces of a picture
+C                             into it; the folder must exist.
       PROGRAM TWOCOD
       INCLUDE 'mpif.h'
       INTEGER NSIZE, MYRANK, NHEAT, MYCODE, MYCOMM, IERR
@@ -22,7 +23,7 @@ C                             the pieces of a picture into it
       CALL MPI_COMM_RANK(MPI_COMM_WORLD, MYRANK, IERR)
       CALL GETARG(1, FOLDER)
 
-C     The first NHEAT ranks are the heat code, the others Bessel's.
+C     The first NHEAT ranks run the heat code, the others BESSEL.
       NHEAT = (NSIZE + 1) / 2
       MYCODE = 0
       IF (MYRANK .GE. NHEAT) MYCODE = 1
@@ -30,7 +31,7 @@ C     The first NHEAT ranks are the heat code, the others Bessel's.
       IF (MYCODE .EQ. 0) CALL HEAT(MYCOMM, FOLDER, NNODES, RATE(1))
       IF (MYCODE .EQ. 1 .OR. NSIZE .EQ. 1) CALL BESSEL(MYCOMM, ZERO(1))
 
-C     The first rank of each code swaps results with that of the other.
+C     The first ranks of the two codes exchange their results.
       IF (NSIZE .GT. 1 .AND. MYRANK .EQ. 0) THEN
         CALL MPI_SENDRECV(RATE, 1, MPI_DOUBLE_PRECISION, NHEAT, 1,
      &                    ZERO, 1, MPI_DOUBLE_PRECISION, NHEAT, 2,

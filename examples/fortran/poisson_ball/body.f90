@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The problem: -Laplace u = f in a body, with u given on its surface. The body is a ball of radius 1
-! or comes from a file. u is a wave whose length is proportional to the body's size.
+! The problem: -Laplace u = f in a body with u given on its surface. The body is a ball of radius 1
+! or the body of a file. u is a wave whose length is about the size of the body.
 module body
   use, intrinsic :: iso_c_binding, only: c_double
   use pnpbs, only: pnpbs_context, pnpbs_domain, PNPBS_BOUNDARY
@@ -9,12 +9,13 @@ module body
   private
   public :: create_body, solution, solution_gradient, source
 
-  !> Half of the body's largest extent: 1 for the ball.
+  !> Half of the longest side of the body's bounding box: 1 for the ball.
   real(c_double), protected, public :: body_size = 1
 
 contains
 
-  !> Creates the domain. `path` is that of a .stl, .off, .obj or .ply file, or empty for the ball.
+  !> Creates the domain and sets body_size. `path` is that of a .stl, .off, .obj or .ply file, or
+  !> empty for the ball. Local.
   subroutine create_body(context, path, domain)
     type(pnpbs_context), intent(in) :: context
     character(len=*), intent(in) :: path
@@ -30,7 +31,7 @@ contains
     body_size = maxval(high - low) / 2
   end subroutine
 
-  !> Returns u = sin(2 x + y) exp(z). Lengths are in units of the body's size.
+  !> Returns u = sin(2 x + y) exp(z), with lengths in units of body_size.
   pure function solution(x) result(u)
     real(c_double), intent(in) :: x(3)
     real(c_double) :: u

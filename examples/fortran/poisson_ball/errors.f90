@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The errors against the known solution, by integrals over the tetrahedra.
+! Errors of the solution against the known one, by integrals over the tetrahedra.
 module errors
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use body, only: solution, solution_gradient
@@ -10,16 +10,16 @@ module errors
   private
   public :: measure_errors
 
-  !> The results of measure_errors:
-  !>   l2        the L2 norm of u_h - u
-  !>   gradient  the L2 norm of grad u_h - grad u, which is the H1 seminorm
-  !>   volume    the volume of the tetrahedra
+  !> Indices of the results of measure_errors:
+  !>   l2        L2 norm of u_h - u
+  !>   gradient  L2 norm of grad u_h - grad u, the H1 seminorm
+  !>   volume    volume of the tetrahedra
   integer, parameter, public :: measures = 3, l2 = 1, gradient = 2, volume = 3
 
-  !> A quadrature rule of 14 points, exact to fifth degree (N. Walkington, Quadrature on simplices
-  !> of arbitrary dimension, 2000). Four and four points lie between the centre and the corners and
-  !> faces, and six between the centre and the edges. The weights are relative to the volume of the
-  !> tetrahedron.
+  !> Quadrature rule of 14 points on a tetrahedron, exact to fifth degree (N. Walkington, Quadrature
+  !> on simplices of arbitrary dimension, 2000). Eight points lie on the lines from the centroid to
+  !> corners and face centroids, six on the lines to edge midpoints. `weight` is relative to the
+  !> volume of the tetrahedron.
   real(c_double), parameter :: a1 = 0.310885919263300610d0, w1 = 0.112687925718015851d0
   real(c_double), parameter :: a2 = 0.0927352503108912264d0, w2 = 0.0734930431163619495d0
   real(c_double), parameter :: a3 = 0.0455037041256496495d0, w3 = 0.0425460207770814664d0
@@ -34,9 +34,9 @@ module errors
 
 contains
 
-  !> Returns the errors. u has the solution at nodes and ghosts. Where the body is concave,
-  !> tetrahedra extend slightly beyond it; u is known and smooth there as well. Each tetrahedron
-  !> counts on the rank that owns its first corner. Collective.
+  !> Returns the errors of u, which must be up to date at ghosts. Where the surface is concave,
+  !> tetrahedra extend a little beyond the body; the known solution is smooth there, too. Each
+  !> tetrahedron contributes on the rank that owns its first corner. Collective.
   function measure_errors(nodes, u) result(measured)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(in) :: u(:)
@@ -53,7 +53,7 @@ contains
   end function
 
   !> Returns the integrals of the squared errors over one tetrahedron, and its volume, from
-  !> positions and values at its corners.
+  !> positions and values of u at its corners.
   pure function parts_on(corner, u) result(parts)
     real(c_double), intent(in) :: corner(3, 4), u(4)
     real(c_double) :: parts(measures), hat(3, 4), constant(3), x(3)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The linear finite element equations. A rank has the equations of its own nodes, and all tetrahedra
-! that these need. Its sums at ghosts are incomplete and are not used.
+! The linear finite element equations. A rank stores the rows of its owned nodes and has all
+! tetrahedra that contribute to them. Sums at ghosts are incomplete and are discarded.
 module linear_elements
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use body, only: source
@@ -10,18 +10,19 @@ module linear_elements
   private
   public :: equations, assemble, multiply, hat_gradients
 
-  !> The corners of the edges of a tetrahedron.
+  !> Corner numbers at the ends of the six edges of a tetrahedron.
   integer, parameter :: edge(2, 6) = reshape([1, 2, 1, 3, 1, 4, 2, 3, 2, 4, 3, 4], [2, 6])
 
-  !> The equations. stiffness(e, t) is minus the integral over tetrahedron t of the product of the
-  !> gradients of the hat functions at the ends of its edge e. Rows sum to zero, so that the
-  !> diagonal follows from these entries.
+  !> The equations of the owned nodes. stiffness(e, t) is the integral over tetrahedron t of the
+  !> scalar product of the gradients of the hat functions at the ends of edge e. Rows sum to zero,
+  !> so these entries determine the diagonal, too.
   type :: equations
     real(c_double), allocatable :: stiffness(:,:), diagonal(:), load(:)
   end type
 
 contains
 
+  !> Assembles the equations of the owned nodes. Local.
   subroutine assemble(nodes, rows)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(out) :: rows
@@ -43,11 +44,11 @@ contains
     end do
     rows%diagonal = rows%diagonal(:nodes%owned)
     rows%load = rows%load(:nodes%owned)
-    ! Where a body is thinner than the spacing, a surface node may belong to no tetrahedron.
+    ! Where a body is thinner than the spacing, a node of its surface may have no tetrahedron.
     where (rows%diagonal == 0) rows%diagonal = 1
   end subroutine
 
-  !> Adds the integrals of f times the hat functions over one tetrahedron, with f linear on it.
+  !> Adds the integrals of f times each hat function over one tetrahedron, with f linear on it.
   subroutine add_load(nodes, corner, volume, load)
     type(local_nodes), intent(in) :: nodes
     integer(c_int64_t), intent(in) :: corner(4)
@@ -59,8 +60,8 @@ contains
     load(corner) = load(corner) + volume / 20 * (f + sum(f))
   end subroutine
 
-  !> Computes product = rows times values at inner nodes. At boundary nodes, whose values are given,
-  !> it is 0. The values must be right at ghosts.
+  !> Multiplies the matrix by `values` at inner nodes. The product is 0 at boundary nodes, whose
+  !> values are given. `values` must be up to date at ghosts. Local.
   subroutine multiply(nodes, rows, values, product)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(in) :: rows
@@ -82,8 +83,8 @@ contains
     product = merge(sums(:nodes%owned), 0d0, nodes%tags == 0)
   end subroutine
 
-  !> Computes the gradients of the four functions that are 1 at one corner and 0 at the others, and
-  !> the volume.
+  !> Computes the gradients of the four hat functions, each 1 at one corner and 0 at the others, and
+  !> the volume of the tetrahedron.
   pure subroutine hat_gradients(corner, hat, volume)
     real(c_double), intent(in) :: corner(3, 4)
     real(c_double), intent(out) :: hat(3, 4), volume

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! One rank's part of the placement: its own nodes, then its ghosts, and the tetrahedra that touch
-! its own nodes, whichever rank they belong to.
+! The part of the placement on one rank: owned nodes, ghosts, and all tetrahedra at owned nodes,
+! also those that belong to other ranks.
 module nodes_of_rank
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use pnpbs, only: pnpbs_placement
@@ -9,18 +9,20 @@ module nodes_of_rank
   private
   public :: local_nodes, take_nodes
 
+  !> The nodes of a rank. `x` holds the positions of owned nodes first, then those of ghosts. `tags`
+  !> are those of owned nodes only.
   type :: local_nodes
     type(pnpbs_placement) :: placement
     integer(c_int64_t) :: owned, ghosts
     real(c_double), allocatable :: x(:,:)
     integer(c_int32_t), allocatable :: tags(:)
-    !> The order is the same on all ranks and for any number of ranks.
+    !> (4, :) local indices. The order does not depend on the number of ranks.
     integer(c_int64_t), allocatable :: tetrahedra(:,:)
   end type
 
 contains
 
-  !> Copies this part from the placement. Collective.
+  !> Copies nodes, ghosts and tetrahedra from the placement. Collective.
   subroutine take_nodes(placement, nodes)
     type(pnpbs_placement), intent(in) :: placement
     type(local_nodes), intent(out) :: nodes

@@ -1,11 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Poisson's equation in a ball or in the body of a file, by linear finite elements on tetrahedra, on
-! the ranks of an MPI communicator, at three spacings. The solution is known, so that the program
-! can print the orders of convergence; README.md says what to expect.
-!
+! Solves Poisson's equation in a ball, or in the body of a file, by linear finite elements on
+! tetrahedra, over the ranks of an MPI communicator, at three spacings. The solution is known, so
+! the program computes orders of convergence; README.md explains the expected values.
 ! usage: poisson_ball [FILE [H]]   FILE: a closed surface, .stl, .off, .obj or .ply
-!                                  H: the coarsest spacing, over half of the body's extent
+!                                  H: the coarsest spacing over body_size (body.f90)
 program poisson_ball
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use mpi
@@ -85,7 +84,7 @@ contains
     end if
   end subroutine
 
-  !> Returns the power of the spacing by which error k falls from a level to a finer one.
+  !> Returns the power of the spacing by which error k falls from level `coarse` to level `fine`.
   function order(k, coarse, fine)
     integer, intent(in) :: k, coarse, fine
     real(c_double) :: order

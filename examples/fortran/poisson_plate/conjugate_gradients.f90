@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Conjugate gradients over the ranks of a communicator, preconditioned by the diagonal.
+! Conjugate gradients with the diagonal as preconditioner, over the ranks of a communicator.
 module conjugate_gradients
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -16,9 +16,10 @@ module conjugate_gradients
 
 contains
 
-  !> Solves the equations. On entry u must be right at boundary nodes and is an initial guess at
-  !> inner nodes. On return it is the solution, also at ghosts. The residual is reduced by the
-  !> factor `tolerance`. Collective.
+  !> Solves the equations. On entry u holds the given values at boundary nodes and an initial guess
+  !> at inner nodes. On return it holds the solution at nodes and ghosts, with a residual of at most
+  !> `tolerance` times the initial one. Ends the program if the iteration does not converge.
+  !> Collective.
   subroutine solve(nodes, rows, tolerance, u)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(in) :: rows

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The errors against the known solution in four norms, each an integral over the triangles.
+! Errors of the solution against the known one in four norms, each an integral over the triangles.
 module errors
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use mpi
@@ -11,15 +11,15 @@ module errors
   private
   public :: measure_errors
 
-  !> The norms, in the order of measure_errors' results:
-  !>   l2         of u_h - u
+  !> Indices of the results of measure_errors:
+  !>   l2         L2 norm of u_h - u
   !>   gradient   L2 norm of grad u_h - grad u, the H1 seminorm
   !>   nodal      L2 norm of grad u_h - grad of the interpolant of u
   !>   recovered  L2 norm of the recovered gradient minus grad u
   integer, parameter, public :: norms = 4, l2 = 1, gradient = 2, nodal = 3, recovered = 4
 
-  !> Dunavant's rule of six points, exact to fourth degree (Int. J. Numer. Meth. Eng. 21, 1985,
-  !> table II): weights relative to the triangle's area, and barycentric coordinates.
+  !> Quadrature rule of six points on a triangle, exact to fourth degree (D. Dunavant, Int. J.
+  !> Numer. Meth. Eng. 21, 1985, table II): weights relative to the area, barycentric coordinates.
   real(c_double), parameter :: w1 = 0.223381589678011d0, w2 = 0.109951743655322d0
   real(c_double), parameter :: a1 = 0.108103018168070d0, b1 = 0.445948490915965d0
   real(c_double), parameter :: a2 = 0.816847572980459d0, b2 = 0.091576213509771d0
@@ -29,8 +29,8 @@ module errors
 
 contains
 
-  !> Returns the errors. u has the solution at nodes and ghosts. Triangles at a hole extend slightly
-  !> into it; u is known and smooth there as well. Collective.
+  !> Returns the errors of u, which must be up to date at ghosts. The triangles at a hole extend a
+  !> little into it; the known solution is smooth there, too. Collective.
   function measure_errors(nodes, u) result(measured)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(in) :: u(:)
@@ -48,7 +48,7 @@ contains
     measured = sqrt(measured)
   end function
 
-  !> Returns the integrals of the squared errors over one triangle, from positions, values and
+  !> Returns the integrals of the squared errors over one triangle from positions, values and
   !> recovered gradients at its corners.
   pure function squares_on(xy, u, slopes) result(squares)
     real(c_double), intent(in) :: xy(2, 3), u(3), slopes(2, 3)
@@ -71,11 +71,11 @@ contains
     squares = area * squares
   end function
 
-  !> Computes the gradient at the nodes from u at the nodes. At an inner node it is the mean over
-  !> the triangles of the star, weighted by their areas. At a boundary node this mean belongs to a
-  !> point inside. There the gradient is extrapolated linearly from each inner neighbour through the
-  !> midpoint of the edge to it, where the gradient is the mean over the two triangles at the edge.
-  !> Collective.
+  !> Computes the recovered gradient at nodes and ghosts from u at the nodes. At an inner node it is
+  !> the mean gradient over the triangles of the star, weighted by their areas. At a boundary node
+  !> this mean approximates the gradient at a point inside, so the gradient is extrapolated linearly
+  !> instead: from that of each inner neighbour through that at the midpoint of the edge to it,
+  !> which is the mean over the two triangles at the edge. Collective.
   subroutine recover_gradient(nodes, u, slopes)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(in) :: u(:)
@@ -92,7 +92,7 @@ contains
     call fill_ghosts_of_both(nodes, slopes)
   end subroutine
 
-  !> Replaces the gradient at the boundary node i if it has inner neighbours.
+  !> Extrapolates the gradient to the boundary node i if it has inner neighbours. Local.
   subroutine extend_to_boundary(nodes, u, i, slopes)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(in) :: u(:)
@@ -134,6 +134,7 @@ contains
     mean = mean / whole
   end function
 
+  !> Updates both components of the gradient at the ghosts. Collective.
   subroutine fill_ghosts_of_both(nodes, slopes)
     type(local_nodes), intent(in) :: nodes
     real(c_double), intent(inout) :: slopes(:,:)

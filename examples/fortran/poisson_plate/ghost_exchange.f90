@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The exchange of values at ghosts: Every rank sends the values of its own nodes to the ranks that
-! have them as ghosts.
+! The halo exchange: every rank sends values at its owned nodes to the ranks that have these nodes
+! as ghosts.
 module ghost_exchange
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use mpi
@@ -10,7 +10,7 @@ module ghost_exchange
   private
   public :: exchange_pattern, take_exchange_pattern, fill_ghosts
 
-  !> The exchange from placement%get_exchange, and the communicator of the solver.
+  !> The exchange pattern that placement%get_exchange returns, and the communicator of the solver.
   type :: exchange_pattern
     integer :: comm
     integer(c_int32_t), allocatable :: ranks(:)
@@ -20,6 +20,7 @@ module ghost_exchange
 
 contains
 
+  !> Copies the exchange pattern from the placement. Collective.
   subroutine take_exchange_pattern(placement, comm, pattern)
     type(pnpbs_placement), intent(in) :: placement
     integer, intent(in) :: comm
@@ -35,8 +36,7 @@ contains
                                 pattern%receive_offsets, pattern%receive_nodes)
   end subroutine
 
-  !> Fills the values at ghosts. On entry values(i) is right at this rank's nodes, on return also at
-  !> its ghosts. Collective.
+  !> Copies values at nodes to their ghosts. `values` holds owned nodes, then ghosts. Collective.
   subroutine fill_ghosts(pattern, values)
     type(exchange_pattern), intent(in) :: pattern
     real(c_double), intent(inout) :: values(:)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Measures the irregular part of the plate, which does not look like a hexagonal lattice. There the
-! error of the gradient does not cancel between neighbouring triangles.
+! The share of the plate where the triangulation differs from a hexagonal lattice. The errors of the
+! gradient on neighbouring triangles do not cancel there.
 module irregular_nodes
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use mpi

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! One rank's part of the placement: its own nodes, then its ghosts; the stars of its own nodes; its
-! share of the triangles.
+! The part of the placement on one rank: owned nodes, ghosts, the stars of the owned nodes, and the
+! triangles that belong to the rank.
 module nodes_of_rank
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int32_t, c_int64_t
   use pnpbs, only: pnpbs_placement
@@ -10,12 +10,13 @@ module nodes_of_rank
   private
   public :: local_nodes, take_nodes, triangle_area
 
+  !> The nodes of a rank. Arrays of nodes hold the owned nodes first, then the ghosts.
   type :: local_nodes
     integer(c_int64_t) :: owned, ghosts
     real(c_double), allocatable :: xy(:,:)
     integer(c_int32_t), allocatable :: tags(:)
-    !> The star of node i is neighbours(offsets(i) : offsets(i+1)-1), counter-clockwise. Where
-    !> closed(e) is 1, node i, neighbours(e) and the next neighbour form a triangle.
+    !> The star of node i is neighbours(offsets(i) : offsets(i+1)-1), counter-clockwise. If
+    !> closed(e) is 1, node i, neighbours(e) and the next neighbour around form a triangle.
     integer(c_int64_t), allocatable :: offsets(:), neighbours(:)
     integer(c_int8_t), allocatable :: closed(:)
     integer(c_int64_t), allocatable :: triangles(:,:)
@@ -27,7 +28,7 @@ module nodes_of_rank
 
 contains
 
-  !> Copies this part from the placement. Collective.
+  !> Copies nodes, ghosts, stars, triangles and the exchange pattern from the placement. Collective.
   subroutine take_nodes(placement, comm, nodes)
     type(pnpbs_placement), intent(in) :: placement
     integer, intent(in) :: comm
@@ -47,7 +48,7 @@ contains
     call take_exchange_pattern(placement, comm, nodes%exchange)
   end subroutine
 
-  !> Returns the entry of node i's star that follows entry e around the node.
+  !> Returns the entry of the star of node i that follows entry e, cyclically.
   pure function next_around(self, i, e) result(next)
     class(local_nodes), intent(in) :: self
     integer(c_int64_t), intent(in) :: i, e
@@ -56,7 +57,7 @@ contains
     if (next == self%offsets(i + 1)) next = self%offsets(i)
   end function
 
-  !> Returns the entry before entry e.
+  !> Returns the entry of the star of node i that precedes entry e, cyclically.
   pure function previous_around(self, i, e) result(previous)
     class(local_nodes), intent(in) :: self
     integer(c_int64_t), intent(in) :: i, e
@@ -65,7 +66,7 @@ contains
     if (e == self%offsets(i)) previous = self%offsets(i + 1) - 1
   end function
 
-  !> Returns the area of the triangle a, b, c; positive if counter-clockwise.
+  !> Returns the area of the triangle a, b, c, which is positive if it is counter-clockwise.
   pure function triangle_area(a, b, c) result(area)
     real(c_double), intent(in) :: a(2), b(2), c(2)
     real(c_double) :: area

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Writes one file per rank for a picture in VTK's legacy text format: this rank's nodes followed by
-! its ghosts, its triangles, and values at the nodes.
+! Output of one file per rank in VTK's legacy text format: owned nodes and ghosts, the triangles of
+! the rank, and values at the nodes.
 module pieces
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use nodes_of_rank, only: local_nodes

@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The problem: -Laplace u = f on a plate with five round holes, with u given on every boundary, and
-! the spacing of the nodes, which is finer at the holes. Lengths are in units of the plate's width.
+! The problem: -Laplace u = f on a plate with five round holes, with u given on every boundary. Also
+! the spacing of the nodes, which is smaller at the holes. The shorter side of the plate has the
+! length 1.
 module plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_f_pointer
   use pnpbs, only: pnpbs_context, pnpbs_domain, PNPBS_BOUNDARY
@@ -17,20 +18,21 @@ module plate
   real(c_double), parameter :: centre(2, holes) = reshape( &
     [0.35d0, 0.30d0, 0.40d0, 0.72d0, 0.95d0, 0.60d0, 1.45d0, 0.30d0, 1.65d0, 0.72d0], [2, holes])
   real(c_double), parameter :: radius(holes) = [0.15d0, 0.10d0, 0.20d0, 0.12d0, 0.08d0]
-  !> The flow out of each hole divided by 2 pi.
+  !> Coefficients of the logarithms in u, one per hole.
   real(c_double), parameter :: strength(holes) = [0.3d0, -0.2d0, 0.4d0, -0.3d0, 0.2d0]
-  !> The factor by which nodes are finer at a hole, minus one.
+  !> The spacing at a hole is that far away over 1 + refinement.
   real(c_double), parameter :: refinement = 2
 
-  !> The parameters of the spacing's callback.
+  !> The parameters of the spacing, which the callback receives through `user`: h, the spacing far
+  !> from the holes.
   type, bind(C) :: spacing_parameters
     real(c_double) :: h
   end type
 
 contains
 
-  !> Computes d(x) = h g(x) with a smooth g, which is 1 far from the holes and about a third at
-  !> their boundaries. The same g for every h gives sets of nodes that differ in scale only.
+  !> Evaluates d(x) = h g(x) with a smooth g that is 1 far from the holes and about a third at their
+  !> rims. g does not depend on h, so sets of nodes for different h differ in their scale only.
   function plate_spacing(n, dim, xyz, d, user) bind(C)
     integer(c_int64_t), value :: n
     integer(c_int32_t), value :: dim
@@ -47,7 +49,7 @@ contains
     plate_spacing = 0
   end function
 
-  !> Creates a rectangle with tag 1 and the holes with tags 2, 3, ...
+  !> Creates the domain: a rectangle with the tag 1 and holes with the tags 2, 3, ... Local.
   subroutine create_plate(context, domain)
     type(pnpbs_context), intent(in) :: context
     type(pnpbs_domain), intent(inout) :: domain
@@ -74,13 +76,14 @@ contains
     gradient(2) = pi * sin(pi * x(1)) * cos(pi * x(2)) + sum(slope * (x(2) - centre(2, :)))
   end function
 
-  !> Returns f = -Laplace u; the logarithms do not contribute.
+  !> Returns f = -Laplace u. The logarithms are harmonic and do not contribute.
   pure function source(x) result(f)
     real(c_double), intent(in) :: x(2)
     real(c_double) :: f
     f = 2 * pi**2 * sin(pi * x(1)) * sin(pi * x(2))
   end function
 
+  !> Returns the distances of the point x from the centres of the holes.
   pure function distances(x) result(r)
     real(c_double), intent(in) :: x(2)
     real(c_double) :: r(holes)

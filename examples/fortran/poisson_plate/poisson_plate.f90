@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! Poisson's equation on a plate with holes, by linear finite elements whose equations come from the
-! stars of the nodes, on the ranks of an MPI communicator, at four spacings, each half of the
-! previous one. The solution is known, so that the program can print the orders of convergence;
-! README.md says what to expect.
-!
-! usage: poisson_plate [FOLDER]   with a folder, the pieces of a picture are written into it
+! Solves Poisson's equation on a plate with holes by linear finite elements, which are assembled
+! from the stars of the nodes, over the ranks of an MPI communicator, at four spacings, each half of
+! the previous one. The solution is known, so the program computes orders of convergence; README.md
+! explains the expected values.
+! usage: poisson_plate [FOLDER]   If a folder is given, every rank writes its piece of the finest
+!                                 solution into it; the folder must exist.
 program poisson_plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_loc
   use mpi
@@ -78,6 +78,7 @@ contains
     end do
   end subroutine
 
+  !> Counts nodes, boundary nodes and triangles over all ranks. Collective.
   subroutine count_over_ranks(totals)
     integer(c_int64_t), intent(out) :: totals(3)
     integer(c_int64_t) :: mine(3)
@@ -87,8 +88,7 @@ contains
     call MPI_Allreduce(mine, totals, 3, MPI_INTEGER8, MPI_SUM, comm, error)
   end subroutine
 
-  !> Prints one line of the table: each error, and its order relative to the previous spacing, which
-  !> is twice this one.
+  !> Prints one line of the table: each error, and its order relative to the previous spacing.
   subroutine print_errors
     integer :: k
     write (*, '(f8.5, i8, f8.1, " %")', advance='no') parameters%h, totals(total_nodes), &
@@ -101,16 +101,16 @@ contains
     print '()'
   end subroutine
 
-  !> Returns the power of the spacing by which error k falls from a level to a finer one.
+  !> Returns the power of the spacing by which error k falls from level `coarse` to level `fine`.
   function order(k, coarse, fine)
     integer, intent(in) :: k, coarse, fine
     real(c_double) :: order
     order = log(error_at(k, coarse) / error_at(k, fine)) / (log(2d0) * (fine - coarse))
   end function
 
-  !> Prints the checks. The number of triangles follows from Euler's formula. Theory gives the
-  !> orders, which are 1 + s for the last two where the irregular share of the area falls as the
-  !> power 2 s of the spacing (README.md).
+  !> Prints results with their expected values: the number of triangles by Euler's formula, and the
+  !> orders of convergence by theory. Theory predicts 1 + s for the last two orders if the irregular
+  !> share of the area falls as the power 2 s of the spacing (README.md).
   subroutine print_checks
     print '(a, i0, a, i0)', 'triangles: ', totals(total_triangles), ', expected ', &
       2 * totals(total_nodes) - totals(total_boundary) - 2 + 2 * holes

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The rows of the linear finite element equations, each from its node's star: Row i needs only the
-! triangles around node i. A rank has complete rows of its own nodes without communication, and
-! there is no mesh besides the stars.
+! The linear finite element equations, assembled from the stars of the nodes. The row of a node
+! depends only on the triangles around it, so a rank assembles complete rows of its owned nodes
+! without messages and without a mesh.
 module star_rows
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use nodes_of_rank, only: local_nodes, triangle_area
@@ -11,13 +11,15 @@ module star_rows
   private
   public :: equations, assemble, multiply
 
-  !> The equations. Row i has diagonal(i) at node i and beside(e) at neighbours(e) of its star.
+  !> The equations of the owned nodes. Row i has the entry diagonal(i) for node i, and beside(e) for
+  !> neighbours(e) of its star.
   type :: equations
     real(c_double), allocatable :: diagonal(:), beside(:), load(:)
   end type
 
 contains
 
+  !> Assembles the equations of the owned nodes. Local.
   subroutine assemble(nodes, rows)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(out) :: rows
@@ -40,8 +42,8 @@ contains
 
   !> Adds the contribution of the triangle a, b, c to the row of its corner a. The hat function of a
   !> corner has the gradient (opposite edge, turned by a right angle) / (2 area). The load is the
-  !> integral of f times a's hat function by the rule of the edges' midpoints, which is exact to
-  !> second degree. The hat function is 1/2 at two of them.
+  !> integral of f times the hat function of a. It is computed with the midpoints of the edges, a
+  !> rule that is exact to second degree; the hat function is 1/2 at two of them and 0 at the third.
   pure subroutine add_triangle(a, b, c, at_a, at_b, at_c, load)
     real(c_double), intent(in) :: a(2), b(2), c(2)
     real(c_double), intent(inout) :: at_a, at_b, at_c, load
@@ -53,8 +55,8 @@ contains
     load = load + area / 6 * (source((a + b) / 2) + source((a + c) / 2))
   end subroutine
 
-  !> Computes product = rows times values at inner nodes. At boundary nodes, whose values are given,
-  !> it is 0.
+  !> Multiplies the matrix by `values` at inner nodes. The product is 0 at boundary nodes, whose
+  !> values are given. `values` must be up to date at ghosts. Local.
   subroutine multiply(nodes, rows, values, product)
     type(local_nodes), intent(in) :: nodes
     type(equations), intent(in) :: rows

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !
-! The smallest program: nodes in the unit square with a spacing of 0.05. examples/c/smallest is the
-! same program in C and says what to check.
+! The smallest program: places nodes in the unit square with the constant spacing 0.05.
+! examples/c/smallest is the same program in C and explains the expected results.
 program smallest
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use pnpbs
@@ -14,7 +14,7 @@ program smallest
   integer(c_int64_t) :: nodes, triangles, boundary
   integer(c_int32_t), allocatable :: tags(:)
 
-  ! Calls without stat stop with a message after an error.
+  ! Without the argument stat, an error stops the program with its message.
   call context%create_serial
   call domain%create(context)
   call domain%add_polyline(PNPBS_BOUNDARY, .true., corners)
@@ -22,7 +22,7 @@ program smallest
   call placement%set_spacing_constant(0.05d0)
   call placement%run
 
-  ! Get the number of nodes, allocate memory, and copy the nodes.
+  ! Results are copied into arrays of the caller, so their number is queried first.
   call placement%count(nodes)
   allocate (tags(nodes))
   call placement%get_nodes(tags=tags)

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A meshless Laplacian in an asteroid, and Poisson's equation solved with it, on any number of
-# ranks. The weights of a node and its adjacency list come from least squares. Of all weights that
-# give the Laplacian of polynomials up to a degree exactly, they have the least sum of squares, in
-# which the weights of distant nodes count more (the generalized finite differences of T. Liszka,
-# J. Orkisz, Comput. Struct. 11 (1980) 83-95).
+# A meshless Laplacian in an asteroid, and a solution of Poisson's equation with it, on any number
+# of ranks. The stencil of a node has weights for the node and its adjacency list. Of all weights
+# that are exact for the Laplacian of polynomials up to a degree, it has those with the least
+# weighted sum of squares, in which distant nodes count more (generalized finite differences,
+# T. Liszka, J. Orkisz, Comput. Struct. 11 (1980) 83-95).
 #
-# What to check: With polynomials of degree m the formula is exact for them within rounding at
-# every node. The Laplacian of a smooth function converges with order m - 1, which is 2 inside and
-# 1 on the surface. The solution of Poisson's equation converges with order 2.
+# Results to check: the formula is exact for polynomials of degree m, up to rounding, at every node.
+# The Laplacian of a smooth function converges with order m - 1, which is 2 inside and 1 on the
+# surface. The solution of Poisson's equation converges with order 2.
 #
 #   julia asteroid_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia asteroid_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# If a folder is given, which must exist, every rank writes its piece of the finest solution.
+# If a folder is given, every rank writes its piece of the finest solution; the folder must exist.
 using LinearAlgebra
 using PNPBS
 using Printf
 
-# If MPI.jl is installed, the program runs on all ranks. Otherwise `comm` is nothing, and all nodes
-# are in this process.
+# The program runs on all ranks if MPI.jl is in the environment. Otherwise `comm` is nothing and
+# this process has all nodes.
 const with_mpi = Base.find_package("MPI") !== nothing
 if with_mpi
     import MPI
@@ -31,9 +31,9 @@ u_exact(x, y, z) = sin(4x + 1) * cos(3y) * exp(2z)
 f_exact(x, y, z) = -21 * u_exact(x, y, z)
 at_points(f, points) = [f(points[1, i], points[2, i], points[3, i]) for i in 1:size(points, 2)]
 
-# Places nodes in 433 Eros, which is 1.6 long. The lists must be long enough for the polynomials,
-# also at the surface, where they are one-sided. A radius of 2 spacings gives about 50 neighbours
-# inside and 25 on the surface.
+# The asteroid 433 Eros, scaled to a length of 1.6. The adjacency lists must be long enough for the
+# polynomials, also at the surface, where they are one-sided. A radius of 2 spacings results in
+# about 50 neighbours inside and 25 on the surface.
 const asteroid = joinpath(@__DIR__, "..", "..", "data", "eros.off")
 
 function place(context, h)
@@ -45,33 +45,34 @@ function place(context, h)
 end
 
 # ---------------------------------------------------------------- stencils ----------------------
-# Returns the degree of the polynomials, which is lower on the surface. There a list of radius 2 has
-# hardly more than three layers of nodes, and a polynomial of degree 3 can vanish on three layers.
+# The degree on the surface is lower by one. A list of radius 2 contains little more than three
+# layers of nodes there, and a polynomial of degree 3 can vanish on three layers.
 degree_at(tag) = tag == 0 ? 3 : 2
 
-# Returns the exponents (a, b, c) of the polynomials x^a y^b z^c up to a degree. The next function
-# returns the Laplacian of such a polynomial at 0.
+# Return the exponents (a, b, c) of the monomials x^a y^b z^c up to a degree, and the Laplacian of a
+# monomial at 0.
 function exponents(degree)
     return [(total - b - c, b, c) for total in 0:degree for b in 0:total for c in 0:(total - b)]
 end
 laplacian_at_0(powers) = sum(powers) == 2 && maximum(powers) == 2 ? 2.0 : 0.0
 
-# The stencils of all nodes. In row i `centre[i]` is the weight of node i, and `weights` are those
-# of its list, entry by entry.
+# The stencils of the owned nodes. `centre[i]` is the weight of node i in its own stencil, and
+# `weights` has a weight for each entry of the adjacency lists.
 struct Stencils
     lists::CompressedRows{Int64}
     centre::Vector{Float64}
     weights::Vector{Float64}
 end
 
-# Returns the polynomials at the nodes, one column for each.
+# Evaluates the monomials at the nodes: one row per node, one column per monomial.
 function polynomials(x, powers)
     return [x[1, k]^a * x[2, k]^b * x[3, k]^c for k in 1:size(x, 2), (a, b, c) in powers]
 end
 
-# Returns the weights w of the stencil whose first node is at 0. They satisfy P' w = b, where P has
-# the polynomials at the nodes and b their Laplacians at 0, and have the least sum of (w / s)^2. If
-# S is the diagonal matrix of s and S P = Q R, then w = S Q (R' \ b).
+# Computes the weights w of a stencil whose first node is at 0. P holds the monomials at the nodes,
+# b their Laplacians at 0. Of the solutions of P' w = b, w is the one with the least sum of (w /
+# s)^2. With the QR factorization S P = Q R, where S is the diagonal matrix of s, it is S Q (R' \
+# b).
 function weights_at_0(x::Matrix{Float64}, powers)
     n, terms = size(x, 2), length(powers)
     n > terms || error("$(n - 1) neighbours are too few for $terms polynomials: raise the option ",
@@ -81,14 +82,14 @@ function weights_at_0(x::Matrix{Float64}, powers)
     return s .* (Matrix(factors.Q) * (factors.R' \ laplacian_at_0.(powers)))
 end
 
-# Returns the positions of the stencil relative to node i in units of the spacing there, so that
-# rounding is the same for all spacings.
+# Returns the positions of node i and of its list, relative to node i and in units of its spacing.
+# Rounding errors do not depend on the spacing then.
 function seen_from(i, list, points, d)
     nodes = [i; list]
     return [(points[row, k] - points[row, i]) / d for row in 1:3, k in nodes]
 end
 
-# Returns the stencils, and their largest error on the polynomials that they must be exact for.
+# Computes the stencils, and their largest error on the polynomials for which they must be exact.
 function laplacian_stencils(points, spacing, tags, lists)
     stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
     largest_error = 0.0
@@ -104,7 +105,7 @@ function laplacian_stencils(points, spacing, tags, lists)
     return stencils, largest_error
 end
 
-# Computes the Laplacian at this rank's nodes of a function given at its nodes and ghosts.
+# Computes the Laplacian at the owned nodes of a function that is given at nodes and ghosts.
 function laplacian!(values, stencils, u)
     offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
     for i in eachindex(values)
@@ -121,7 +122,8 @@ end
 over_ranks(op, value, comm) = MPI.Allreduce(value, op, comm)
 over_ranks(op, value, ::Nothing) = value
 
-# Returns the dot product of values at the n nodes of each rank. Values of ghosts may follow them.
+# Returns the dot product of two fields over the nodes of all ranks. The first n values are those at
+# the owned nodes; values at ghosts may follow. Collective.
 function dot_over_ranks(v, w, n, comm)
     s = 0.0
     for i in 1:n
@@ -131,10 +133,10 @@ function dot_over_ranks(v, w, n, comm)
 end
 
 # ---------------------------------------------------------------- Poisson's equation ------------
-# Solves Laplacian u = f at inner nodes, starting from the values of u. Those on the surface do not
-# change, because the residual there is set to zero. The matrix is not symmetric, so the method is
-# BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644) with rows divided by
-# their diagonal.
+# Solves Laplacian u = f at the inner nodes, starting from the values of u. Values on the surface do
+# not change, because the residual is set to zero there. The matrix is not symmetric, so the method
+# is BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644), with rows divided by
+# their diagonal. Collective.
 function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
@@ -169,7 +171,7 @@ function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-1
 end
 
 # ---------------------------------------------------------------- one spacing -------------------
-# Returns the root mean square over the chosen nodes of all ranks.
+# Returns the root mean square of the errors over the chosen nodes of all ranks. Collective.
 function mean_error(errors, chosen, comm)
     square = over_ranks(+, sum(abs2, errors[chosen]), comm)
     return sqrt(square / over_ranks(+, count(chosen), comm))
@@ -178,14 +180,14 @@ end
 function solve(context, comm, h, folder)
     placement = place(context, h)
     own, others = nodes(placement), ghosts(placement)
-    points = [own.points others.points]          # this rank's nodes, then its ghosts
+    points = [own.points others.points]          # owned nodes, then ghosts
     n, inner = length(own.ids), own.tags .== 0
     stencils, largest_error = laplacian_stencils(points, own.spacing, own.tags,
                                                  adjacency(placement))
     exact, f = at_points(u_exact, points), at_points(f_exact, points)
     laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
 
-    # The values on the surface are given. Inside the solver starts from zero.
+    # Values on the surface are given. The solver starts from zero inside.
     u = [own.tags .!= 0; falses(length(others.ids))] .* exact
     solve_poisson!(u, f, inner, stencils, placement, comm)
     errors = u .- exact
@@ -202,7 +204,7 @@ end
 my_rank(comm) = MPI.Comm_rank(comm)
 my_rank(::Nothing) = 0
 
-# Writes this rank's nodes and ghosts, its tetrahedra, and fields, in VTK's legacy format.
+# Writes nodes, ghosts, tetrahedra and fields of this rank in VTK's legacy format. Local.
 function write_piece(folder, comm, points, corners, u, errors)
     path = joinpath(folder, "asteroid_stencils_" * lpad(my_rank(comm), 3, '0') * ".vtk")
     open(path, "w") do file

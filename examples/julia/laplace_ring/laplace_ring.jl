@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A solver on the library's nodes, over the ranks of an MPI program: -Laplace u = 0 in the ring
-# 0.5 <= r <= 1 with u = log r on both circles, which is then the solution everywhere. The linear
-# finite element equations are assembled node by node: The row of a node comes from the triangles
-# of its Delaunay star alone. Every rank assembles the rows of its own nodes without a mesh file
-# and without a message. examples/c/laplace_ring is the same program in C, and says what to check.
+# A finite element solver on the library's nodes, over the ranks of an MPI program. It solves
+# -Laplace u = 0 in the ring 0.5 <= r <= 1 with u = log r on both circles; the solution is log r
+# everywhere. The row of a node follows from the triangles of its Delaunay star alone, so every rank
+# assembles the rows of its own nodes without a mesh file and without messages.
+# examples/c/laplace_ring is the same program in C and explains the expected results.
 #
 #   julia laplace_ring.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplace_ring.jl [FOLDER]   with MPI.jl in the environment
 #
-# If a folder is given, which must exist, every rank writes its piece of the solution.
+# If a folder is given, every rank writes its piece of the solution into it; the folder must exist.
 using PNPBS
 using Printf
 
-# If MPI.jl is installed, the program runs on all ranks. Otherwise `comm` is nothing, and all nodes
-# are in this process.
+# The program runs on all ranks if MPI.jl is in the environment. Otherwise `comm` is nothing and
+# this process has all nodes.
 const with_mpi = Base.find_package("MPI") !== nothing
 if with_mpi
     import MPI
@@ -23,17 +23,18 @@ end
 const inner_radius, outer_radius, d = 0.5, 1.0, 0.03
 const INNER_CIRCLE, OUTER_CIRCLE = 1, 2
 
-# This rank's nodes, followed by its ghosts, which are adjacent nodes of other ranks.
+# The mesh of this rank. Arrays over `all` hold the owned nodes first, then the ghosts, which are
+# nearby nodes that other ranks own.
 struct Mesh{C}
     comm::C
     owned::Int
-    xy::Matrix{Float64}      # (2, all), all including the ghosts
+    xy::Matrix{Float64}      # (2, all), all = owned + ghosts
     tags::Vector{Int32}      # [all]
     corners::Matrix{Int64}   # (3, triangles)
 end
 
-# The rows of this rank's nodes. Besides the diagonal a row has one entry for each node of the star.
-# The entries of row i are those from offsets[i] to offsets[i + 1] - 1.
+# The matrix rows of the owned nodes. Row i has a diagonal entry and one entry for each node of the
+# star of node i, at offsets[i] .. offsets[i + 1] - 1.
 struct StarMatrix
     offsets::Vector{Int64}
     columns::Vector{Int64}
@@ -51,15 +52,16 @@ function get_mesh(placement, comm)
                 triangles(placement))
 end
 
-# Returns the cotangent of the angle at a in the counter-clockwise triangle of the nodes a, b, c.
+# Returns the cotangent of the angle at node a in the counter-clockwise triangle of nodes a, b, c.
 function cotangent(xy, a, b, c)
     bx, by = xy[1, b] - xy[1, a], xy[2, b] - xy[2, a]
     cx, cy = xy[1, c] - xy[1, a], xy[2, c] - xy[2, a]
     return (bx * cx + by * cy) / (bx * cy - by * cx)
 end
 
-# Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a triangle
-# is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row sums to zero.
+# Assembles the rows of the owned nodes from their Delaunay stars. For linear elements the integral
+# of grad phi_i . grad phi_j over a triangle is -1/2 times the cotangent of the angle opposite to
+# the edge ij, and every row sums to zero. Collective.
 function assemble(placement, mesh)
     star = stars(placement)
     offsets, columns = star.neighbours.offsets, star.neighbours.entries
@@ -89,8 +91,7 @@ function dot(mesh, x, y)
     return sum_over_ranks(mesh, part)
 end
 
-# Computes y = A x at this rank's nodes, after copying to the ghosts of x the values of their
-# owners.
+# Computes y = A x at the owned nodes. Updates the ghosts of x first. Collective.
 function multiply!(y, a, x, mesh, placement)
     update_ghosts!(placement, x)
     for i in 1:mesh.owned
@@ -103,8 +104,8 @@ function multiply!(y, a, x, mesh, placement)
     return y
 end
 
-# Solves A u = 0 at the inner nodes by conjugate gradients. On the boundary u does not change,
-# because the residual there is set to zero.
+# Solves A u = 0 at the inner nodes by conjugate gradients. Values of u on the boundary do not
+# change, because the residual is set to zero there. Collective.
 function solve!(u, a, mesh, placement)
     inner = mesh.tags[1:mesh.owned] .== 0
     q = zeros(mesh.owned)
@@ -134,7 +135,8 @@ function largest_error(mesh, u)
     return over_ranks(max, part, mesh.comm)
 end
 
-# Returns the root of the integral of (u - log r)^2, by the midpoints of the triangles' edges.
+# Returns the root of the integral of (u - log r)^2, computed with the midpoints of the edges of
+# each triangle. Collective.
 function l2_error(mesh, u)
     part = 0.0
     for t in 1:size(mesh.corners, 2)
@@ -151,8 +153,8 @@ end
 triangle_area(xy, a, b, c) = ((xy[1, b] - xy[1, a]) * (xy[2, c] - xy[2, a]) -
                               (xy[2, b] - xy[2, a]) * (xy[1, c] - xy[1, a])) / 2
 
-# Returns the integral of the normal derivative over the outer circle, which is the sum of A u
-# there.
+# Returns the integral of the normal derivative of u over the outer circle, which is the sum of A u
+# over the nodes there. Collective.
 function outer_flux(a, u, mesh, placement)
     q = multiply!(zeros(mesh.owned), a, u, mesh, placement)
     return sum_over_ranks(mesh, sum(q[mesh.tags[1:mesh.owned] .== OUTER_CIRCLE]))
@@ -198,7 +200,7 @@ end
 
 # ---------------------------------------------------------------- the program -------------------
 function main(comm, folder)
-    context = comm === nothing ? Context() : Context(comm)    # any communicator
+    context = comm === nothing ? Context() : Context(comm)    # or any other communicator
     ring = Domain(context)
     add_arc!(ring, (0, 0), inner_radius; tag = INNER_CIRCLE)
     add_arc!(ring, (0, 0), outer_radius; tag = OUTER_CIRCLE)

@@ -1,43 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A meshless Laplacian on the adjacency lists, and Poisson's equation solved with it, on any number
-# of ranks. The weights of a node and its list come from RBF-FD: They give the Laplacian of the
-# interpolant of polyharmonic splines |x - x_j|^5 at the list's nodes and polynomials up to a
-# degree (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of polynomials in RBF-FD
-# approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016) 21-38).
+# A meshless Laplacian on the adjacency lists, and a solution of Poisson's equation with it, on any
+# number of ranks. The stencil of a node has weights for the node and its adjacency list by RBF-FD.
+# They yield the Laplacian of the interpolant by polyharmonic splines |x - x_j|^5 around these nodes
+# plus polynomials up to a degree (N. Flyer, B. Fornberg, V. Bayona, G. Barnett, "On the role of
+# polynomials in RBF-FD approximations: I. Interpolation and accuracy", J. Comput. Phys. 321 (2016)
+# 21-38).
 #
-# What to check: With polynomials of degree m the formula is exact for them within rounding at
-# every node. The Laplacian of a smooth function converges with order m - 1, which is 3 inside and
-# 2 on the boundary. The solution of Poisson's equation converges with at least the same order. The
-# observed order is 4, because the errors of the formula differ in sign from node to node and
-# mostly cancel.
+# Results to check: the formula is exact for polynomials of degree m, up to rounding, at every node.
+# The Laplacian of a smooth function converges with order m - 1, which is 3 inside and 2 on the
+# boundary. The solution of Poisson's equation converges with order 4, because the errors of the
+# formula change sign from node to node and mostly cancel.
 #
 #   julia laplacian_stencils.jl [FOLDER]                one process
 #   mpiexec -n 4 julia laplacian_stencils.jl [FOLDER]   with MPI.jl in the environment
 #
-# If a folder is given, which must exist, every rank writes its piece of the finest solution.
+# If a folder is given, every rank writes its piece of the finest solution; the folder must exist.
 using LinearAlgebra
 using PNPBS
 using Printf
 
-# If MPI.jl is installed, the program runs on all ranks. Otherwise `comm` is nothing, and all nodes
-# are in this process.
+# The program runs on all ranks if MPI.jl is in the environment. Otherwise `comm` is nothing and
+# this process has all nodes.
 const with_mpi = Base.find_package("MPI") !== nothing
 if with_mpi
     import MPI
 end
 
 # ---------------------------------------------------------------- the problem -------------------
-# The Laplacian of u is f. u is the sum of a dipole in the middle of the hole, which is harmonic,
-# and a wave.
+# u is a dipole at the centre of the hole, which is harmonic, plus a wave. f is its Laplacian.
 u_exact(x, y) = 0.3 * x / (x^2 + y^2) + sin(2y + 1)
 f_exact(x, y) = -4 * sin(2y + 1)
 at_points(f, points) = [f(points[1, i], points[2, i]) for i in 1:size(points, 2)]
 
 # Places nodes in a rounded triangle with a hole of radius 1/2. The spacing is 0.4 h at the hole and
-# h at a distance of 1 from it. The lists must be long enough for the polynomials, also at the
-# boundary, where they are one-sided. A radius of 3 spacings gives at least 21 neighbours inside and
-# 14 on the boundary.
+# h at a distance of 1 from it. The adjacency lists must be long enough for the polynomials, also at
+# the boundary, where they are one-sided. A radius of 3 spacings results in at least 21 neighbours
+# inside and 14 on the boundary.
 function place(context, h)
     domain = Domain(context)
     add_curve!(domain, 0, 2pi) do t
@@ -54,25 +53,24 @@ function place(context, h)
 end
 
 # ---------------------------------------------------------------- stencils ----------------------
-# Returns the degree of the polynomials, which is lower on the boundary. There a list of radius 3
-# has hardly more than four rows of nodes, and a polynomial of degree 4 can vanish on four rows.
+# The degree on the boundary is lower by one. A list of radius 3 contains little more than four rows
+# of nodes there, and a polynomial of degree 4 can vanish on four rows.
 degree_at(tag) = tag == 0 ? 4 : 3
 
-# Return the exponents (a, b) of the polynomials x^a y^b up to a degree, and the Laplacian of such a
-# polynomial at 0.
+# Return the exponents (a, b) of the monomials x^a y^b up to a degree, and the Laplacian of a
+# monomial at 0.
 exponents(degree) = [(total - b, b) for total in 0:degree for b in 0:total]
 laplacian_at_0((a, b)) = (a, b) in ((2, 0), (0, 2)) ? 2.0 : 0.0
 
-# The stencils of all nodes. In row i `centre[i]` is the weight of node i, and `weights` are those
-# of its list, entry by entry.
+# The stencils of the owned nodes. `centre[i]` is the weight of node i in its own stencil, and
+# `weights` has a weight for each entry of the adjacency lists.
 struct Stencils
     lists::CompressedRows{Int64}
     centre::Vector{Float64}
     weights::Vector{Float64}
 end
 
-# Returns the weights w of the stencil whose first node is at 0. The weights and the multipliers
-# solve
+# Computes the weights w of a stencil whose first node is at 0. They and the multipliers l solve
 #   [ phi(|x_k - x_l|)  p_j(x_k) ] [ w ]   [ Laplacian of phi(|x - x_k|) at 0 ]
 #   [ p_j(x_l)          0        ] [ l ] = [ Laplacian of p_j at 0            ]
 # with phi(r) = r^5, whose Laplacian is 25 r^3.
@@ -95,8 +93,8 @@ function weights_at_0(x::Vector{Float64}, y::Vector{Float64}, powers)
     return (matrix \ right)[1:n]
 end
 
-# Returns the positions of the stencil relative to node i in units of the spacing there, so that
-# rounding is the same for all spacings.
+# Returns the positions of node i and of its list, relative to node i and in units of its spacing.
+# Rounding errors do not depend on the spacing then.
 function seen_from(i, list, points, d)
     nodes = [i; list]
     x = [(points[1, k] - points[1, i]) / d for k in nodes]
@@ -104,7 +102,7 @@ function seen_from(i, list, points, d)
     return x, y
 end
 
-# Returns the stencils, and their largest error on the polynomials that they must be exact for.
+# Computes the stencils, and their largest error on the polynomials for which they must be exact.
 function laplacian_stencils(points, spacing, tags, lists)
     stencils = Stencils(lists, zeros(length(lists)), zeros(length(lists.entries)))
     largest_error = 0.0
@@ -122,7 +120,7 @@ function laplacian_stencils(points, spacing, tags, lists)
     return stencils, largest_error
 end
 
-# Computes the Laplacian at this rank's nodes of a function given at its nodes and ghosts.
+# Computes the Laplacian at the owned nodes of a function that is given at nodes and ghosts.
 function laplacian!(values, stencils, u)
     offsets, neighbours = stencils.lists.offsets, stencils.lists.entries
     for i in eachindex(values)
@@ -139,7 +137,8 @@ end
 over_ranks(op, value, comm) = MPI.Allreduce(value, op, comm)
 over_ranks(op, value, ::Nothing) = value
 
-# Returns the dot product of values at the n nodes of each rank. Values of ghosts may follow them.
+# Returns the dot product of two fields over the nodes of all ranks. The first n values are those at
+# the owned nodes; values at ghosts may follow. Collective.
 function dot_over_ranks(v, w, n, comm)
     s = 0.0
     for i in 1:n
@@ -149,10 +148,10 @@ function dot_over_ranks(v, w, n, comm)
 end
 
 # ---------------------------------------------------------------- Poisson's equation ------------
-# Solves Laplacian u = f at inner nodes, starting from the values of u. Those on the boundary do not
-# change, because the residual there is set to zero. The matrix is not symmetric, so the method is
-# BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644) with rows divided by
-# their diagonal.
+# Solves Laplacian u = f at the inner nodes, starting from the values of u. Values on the boundary
+# do not change, because the residual is set to zero there. The matrix is not symmetric, so the
+# method is BiCGSTAB (H. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644), with rows
+# divided by their diagonal. Collective.
 function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-12, most = 2000)
     n = length(inner)
     scale = [inner[i] ? 1 / stencils.centre[i] : 0.0 for i in 1:n]
@@ -187,7 +186,7 @@ function solve_poisson!(u, f, inner, stencils, placement, comm; tolerance = 1e-1
 end
 
 # ---------------------------------------------------------------- one spacing -------------------
-# Returns the root mean square over the chosen nodes of all ranks.
+# Returns the root mean square of the errors over the chosen nodes of all ranks. Collective.
 function mean_error(errors, chosen, comm)
     square = over_ranks(+, sum(abs2, errors[chosen]), comm)
     return sqrt(square / over_ranks(+, count(chosen), comm))
@@ -196,14 +195,14 @@ end
 function solve(context, comm, h, folder)
     placement = place(context, h)
     own, others = nodes(placement), ghosts(placement)
-    points = [own.points others.points]          # this rank's nodes, then its ghosts
+    points = [own.points others.points]          # owned nodes, then ghosts
     n, inner = length(own.ids), own.tags .== 0
     stencils, largest_error = laplacian_stencils(points, own.spacing, own.tags,
                                                  adjacency(placement))
     exact, f = at_points(u_exact, points), at_points(f_exact, points)
     laplacian_errors = laplacian!(zeros(n), stencils, exact) .- f[1:n]
 
-    # The values on the boundary are given. Inside the solver starts from zero.
+    # Values on the boundary are given. The solver starts from zero inside.
     u = [own.tags .!= 0; falses(length(others.ids))] .* exact
     solve_poisson!(u, f, inner, stencils, placement, comm)
     errors = u .- exact
@@ -220,7 +219,7 @@ end
 my_rank(comm) = MPI.Comm_rank(comm)
 my_rank(::Nothing) = 0
 
-# Writes this rank's nodes and ghosts, its triangles, and fields, in VTK's legacy format.
+# Writes nodes, ghosts, triangles and fields of this rank in VTK's legacy format. Local.
 function write_piece(folder, comm, points, corners, u, errors)
     path = joinpath(folder, "laplacian_stencils_" * lpad(my_rank(comm), 3, '0') * ".vtk")
     open(path, "w") do file

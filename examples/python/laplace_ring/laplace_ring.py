@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A solver on the library's nodes, over the ranks of an MPI program.
-
-It solves -Laplace u = 0 in the ring 0.5 <= r <= 1 with u = log r on both circles, which is then the
-solution everywhere. The rows of the linear finite element equations come from the triangles of the
-Delaunay stars of this rank's nodes alone, without a mesh file and without a message.
-examples/c/laplace_ring is the same program in C and says what to check.
+"""A finite element solver on the library's nodes, over the ranks of an MPI program. It solves
+-Laplace u = 0 in the ring 0.5 <= r <= 1 with u = log r on both circles; the solution is log r
+everywhere. The row of a node follows from the triangles of its Delaunay star alone, so every rank
+assembles the rows of its own nodes without a mesh file and without messages.
+examples/c/laplace_ring is the same program in C and explains the expected results.
 
     python3 laplace_ring.py                     one process
     mpirun -n 4 python3 laplace_ring.py --mpi   with mpi4py
 
-The dot products are the library's, which are exact and rounded once, and the rows are summed in the
-order of the stars. Therefore the solution has the same bits on any number of ranks."""
+The dot products are those of the library, which are exact and rounded once, and rows are summed in
+the order of the stars. The solution therefore has the same bits on any number of ranks."""
 import sys
 
 import numpy as np
@@ -26,16 +25,16 @@ def known_solution(points):
 
 
 def cotangent(points, a, b, c):
-    """Returns the cotangents of the angles at a in the counter-clockwise triangles of the nodes a,
-    b, c."""
+    """Returns the cotangents of the angles at nodes a in counter-clockwise triangles a, b, c."""
     u, v = points[b] - points[a], points[c] - points[a]
     return (u * v).sum(axis=1) / (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
 
 
 def assemble(placement, points):
-    """Assembles the matrix. For linear elements the integral of grad phi_i . grad phi_j over a
-    triangle is -1/2 times the cotangent of the angle opposite to the edge from i to j. Every row
-    sums to zero. The columns of row i are the neighbours in the star of node i."""
+    """Assembles the rows of the owned nodes from their Delaunay stars; the columns of row i are the
+    nodes of the star of node i. For linear elements the integral of grad phi_i . grad phi_j over a
+    triangle is -1/2 times the cotangent of the angle opposite to the edge ij, and every row sums to
+    zero. Returns offsets, columns and off-diagonal entries. Collective."""
     stars = placement.stars()
     offsets, columns = stars.neighbours.offsets, stars.neighbours.values
     rows = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
@@ -51,29 +50,31 @@ def assemble(placement, points):
 
 
 def row_sums(offsets, terms):
-    """Returns the sum of each row, added from its first entry on, whatever rank the row is on."""
+    """Returns the sums of the rows. The order of summation does not depend on the ranks."""
     sums = np.zeros(len(offsets) - 1)
     np.add.at(sums, np.repeat(np.arange(len(sums)), np.diff(offsets)), terms)
     return sums
 
 
 class Matrix:
+    """The matrix rows of the owned nodes."""
+
     def __init__(self, placement, points):
         self.placement = placement
         self.offsets, self.columns, self.entries = assemble(placement, points)
         self.diagonal = -row_sums(self.offsets, self.entries)
 
     def times(self, x):
-        """Returns the product at this rank's nodes, after copying to the ghosts of x the values of
-        their owners."""
+        """Returns A x at the owned nodes. Updates the ghosts of x first. Collective."""
         self.placement.update_ghosts(x)
         return self.diagonal * x[:len(self.diagonal)] + row_sums(self.offsets,
                                                                  self.entries * x[self.columns])
 
 
 def solve(matrix, u, inner):
-    """Solves A u = 0 at the inner nodes, where `inner` is 1, by conjugate gradients. On the
-    boundary `inner` is 0, and u does not change, because the residual there is set to zero."""
+    """Solves A u = 0 at the inner nodes by conjugate gradients, and returns the number of steps.
+    `inner` is 1 at inner nodes and 0 on the boundary, where u does not change, because the residual
+    is set to zero there. Collective."""
     dot = matrix.placement.dot
     n = len(inner)
     r = -inner * matrix.times(u)

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The smallest program: nodes in the unit square with a spacing of 0.05.
-
-examples/c/smallest is the same program in C and says what to check."""
+"""The smallest program: places nodes in the unit square with the constant spacing 0.05.
+examples/c/smallest is the same program in C and explains the expected results."""
 import numpy as np
 import pnpbs
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Converts meshes to grids of Ferrite.jl. Julia 1.9 and later load this when both packages are
-# loaded.
+# Conversion of distributed meshes to grids of Ferrite.jl. Julia 1.9 and later load this extension
+# with both packages.
 module PNPBSFerriteExt
 
 import Ferrite
@@ -9,12 +9,12 @@ import PNPBS
 """
     Ferrite.Grid(mesh::PNPBS.DistributedMesh)
 
-Returns the mesh as a grid of triangles or tetrahedra, whose cells and nodes have the indices that
-elements and nodes have in `mesh`. The facet set `"tag_7"` has the facets with tag 7 of the boundary
-and of inner curves or surfaces, an inner one as a facet of one of its two cells. The cell set
-`"tag_7"` has the elements with tag 7: those of a region, on surfaces alone those of the surface.
-Elements without a tag are in no cell set. Ferrite has no ranks, so all nodes must be on this one.
-Local.
+Returns the mesh as a grid of triangles or tetrahedra. Cells and nodes have the indices of elements
+and nodes in `mesh`. The facet set `"tag_7"` has the facets with tag 7 of the boundary and of inner
+curves or surfaces; an inner facet belongs to one of its two cells. The cell set `"tag_7"` has the
+elements with tag 7: those of a region, on surfaces alone those of the surface. Elements with the
+tag 0 are in no cell set. Ferrite does not use ranks, so the function throws an `ArgumentError`
+unless all nodes are on this rank. Local.
 """
 function Ferrite.Grid(mesh::PNPBS.DistributedMesh)
     PNPBS.require_whole_mesh(mesh, "Ferrite")
@@ -26,8 +26,7 @@ function Ferrite.Grid(mesh::PNPBS.DistributedMesh)
     return Ferrite.Grid(cells, nodes; cellsets = cellsets, facetsets = facetsets)
 end
 
-# Returns the facets as those of their first cells. The facet is the one without the opposite
-# corner.
+# Returns each facet as that facet of its first cell that does not contain the opposite corner.
 function facets_of_cells(mesh, cells)
     return map(axes(mesh.facets, 2)) do k
         element = Int(mesh.facet_elements[1, k])
@@ -37,7 +36,7 @@ function facets_of_cells(mesh, cells)
     end
 end
 
-# Returns the members by tag. Tag 0 means no tag and is left out.
+# Groups members by tag. The tag 0 means no tag, so its members are left out.
 function sets_by_tag(tags, members)
     sets = Dict{String,Vector{eltype(members)}}()
     for (tag, member) in zip(tags, members)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Converts meshes to discrete models of Gridap.jl. Julia 1.9 and later load this when both packages
-# are loaded.
+# Conversion of distributed meshes to discrete models of Gridap.jl. Julia 1.9 and later load this
+# extension with both packages.
 module PNPBSGridapExt
 
 using Gridap.Arrays: Table
@@ -15,14 +15,15 @@ import PNPBS
 """
     Gridap.UnstructuredDiscreteModel(mesh::PNPBS.DistributedMesh)
 
-Returns the mesh as a discrete model of triangles or tetrahedra, whose cells and nodes have the
-indices that elements and nodes have in `mesh`. The tag `"tag_7"` has the facets with tag 7 of the
-boundary and of inner curves or surfaces, with their edges and vertices; on surfaces alone the
-triangles of the surface as well. The tag `"region_7"` has the cells of regions with tag 7, with
-their faces, edges and vertices; those where regions meet have the tags of all. The tag `"boundary"`
-has what lies on the boundary, `"interior"` the rest. The corners of a cell are in the order of
-their indices, as Gridap's oriented simplices are; on surfaces alone they turn as in `mesh`. Gridap
-has no ranks, so all nodes must be on this one. Local.
+Returns the mesh as a discrete model of triangles or tetrahedra. Cells and nodes have the indices of
+elements and nodes in `mesh`. The tag `"tag_7"` has the facets with tag 7 of the boundary and of
+inner curves or surfaces, with their edges and vertices; on surfaces alone also the triangles of the
+surface. The tag `"region_7"` has the cells of regions with tag 7, with their faces, edges and
+vertices; entities between regions have the tags of all of them. The tag `"boundary"` has the
+entities on the boundary, `"interior"` all others. The corners of a cell are in the order of their
+indices, as Gridap's oriented simplices require; on surfaces alone they have the orientation of
+`mesh`. Gridap does not use ranks here, so the function throws an `ArgumentError` unless all nodes
+are on this rank. Local.
 """
 function Gridap.Geometry.UnstructuredDiscreteModel(mesh::PNPBS.DistributedMesh)
     PNPBS.require_whole_mesh(mesh, "Gridap")
@@ -43,9 +44,9 @@ end
 
 on_surfaces(mesh) = size(mesh.elements, 1) == mesh.dim
 
-# The location of a vertex, edge, triangle or cell: the sorted tags of its curves or surfaces, those
-# of its regions, and whether it is on the boundary. An entity of Gridap consists of all faces with
-# the same location.
+# The classification of a vertex, edge, triangle or cell: the sorted tags of its curves or surfaces,
+# the sorted tags of its regions, and whether it lies on the boundary. All faces with the same
+# classification form an entity of Gridap.
 struct Place
     tags::Vector{Int32}
     regions::Vector{Int32}
@@ -69,7 +70,7 @@ function labels_of(mesh, topology)
     return labels
 end
 
-# Returns the entities of the faces of each dimension, and the location of each entity.
+# Returns the entity of each face of each dimension, and the classification of each entity.
 function entities_of_faces(mesh, topology)
     dim = num_cell_dims(topology)
     places = Place[Place(Int32[], Int32[], false)]
@@ -96,7 +97,7 @@ function entities_of_faces(mesh, topology)
     return entities, places
 end
 
-# Returns the entity whose location also includes this curve or surface, or this region.
+# Returns the entity that has the classification of `entity` plus this curve, surface or region.
 function entity_with!(places, entity, tag, kind)
     old = places[entity]
     with(tags) = tag in tags ? tags : sort([tags; tag])
@@ -108,13 +109,13 @@ function entity_with!(places, entity, tag, kind)
     return length(places)
 end
 
-# Returns a face and its own faces, with their dimensions.
+# Returns a face and all faces on its boundary, with their dimensions.
 function faces_in(topology, dim, face)
     own = ((d, f) for d in 0:(dim - 1) for f in get_faces(topology, dim, d)[face])
     return Iterators.flatten((((dim, face),), own))
 end
 
-# Returns Gridap's numbers of the mesh's facets.
+# Returns Gridap's index of each facet of the mesh.
 function facet_numbers(mesh, topology)
     dim = num_cell_dims(topology)
     of_cells, vertices = get_faces(topology, dim, dim - 1), get_faces(topology, dim - 1, 0)

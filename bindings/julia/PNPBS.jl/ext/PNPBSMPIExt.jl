@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Passes MPI.jl to PNPBS. Julia 1.9 and later load this when both packages are loaded.
+# Contexts on communicators of MPI.jl. Julia 1.9 and later load this extension with both packages.
 module PNPBSMPIExt
 
 import MPI

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Recipes for Plots.jl. Julia 1.9 and later load this when PNPBS and RecipesBase, which Plots.jl
-# loads, are loaded.
+# Recipes of Plots.jl for placements and domains. Julia 1.9 and later load this extension with PNPBS
+# and RecipesBase, on which Plots.jl depends.
 module PNPBSRecipesBaseExt
 
 import PNPBS

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-The unmodified C interface: one Julia function for each function of `pnpbs.h`, with the same name and
-arguments, documented in that header. Nothing here is checked or converted beyond what `ccall` does. A
-test compares every signature below with the header.
+The unmodified C interface. It has one Julia function for each function of `pnpbs.h`, with the same
+name and arguments, as documented in that header. The only checks and conversions are those of
+`ccall`. A test compares every signature below with the header.
 """
 module LibPNPBS
 
 include("library.jl")
 
-# The type names of the header. Handles are keys in the library and not addresses. Callbacks are
-# pointers made by `@cfunction` (see callbacks.jl).
+# Types, with the names of the header. Handles are keys of the library and not addresses. Callbacks
+# are pointers that `@cfunction` creates (see callbacks.jl).
 const pnpbs_status = Int32
 const pnpbs_context = Ptr{Cvoid}
 const pnpbs_domain = Ptr{Cvoid}

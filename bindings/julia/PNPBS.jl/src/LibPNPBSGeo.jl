@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-The C interface of `libpnpbs_geo`, one Julia function for each function of `pnpbs_geo.h`, like
-`LibPNPBS` for `pnpbs.h`. The library is opened at first use; it exists only where PNPBS was built
-with GDAL.
+The unmodified C interface of `libpnpbs_geo`. It has one Julia function for each function of
+`pnpbs_geo.h`, as `LibPNPBS` has for `pnpbs.h`. The library exists only if PNPBS was built with
+GDAL, and is opened by the first call.
 """
 module LibPNPBSGeo
 
@@ -15,7 +15,7 @@ const pnpbs_geo_grid = Ptr{Cvoid}
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 
 function open_library()
-    LibPNPBS.symbol(:pnpbs_version)  # opens libpnpbs first, which this library calls
+    LibPNPBS.symbol(:pnpbs_version)  # libpnpbs_geo calls libpnpbs, which must be opened first
     name = Sys.islinux() ? "libpnpbs_geo.so.0" : "libpnpbs_geo.$(Libdl.dlext)"
     beside = joinpath(LibPNPBS.common_folder(LibPNPBS.library_path()), name)
     opened[] = try

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-Parallel node placement by bubble simulation: given a domain and a node-spacing function d(x), it
-returns nodes whose mutual distances follow d, with their adjacency lists, boundary tags and
-Delaunay stars, identical for any number of threads and MPI ranks.
+Parallel node placement by bubble simulation. Given a domain and a spacing d(x), the library places
+nodes whose mutual distances follow d, and computes their adjacency lists, boundary tags and
+Delaunay stars. Results are identical for any number of threads and MPI ranks.
 
     using PNPBS
     Context() do context
@@ -14,10 +14,18 @@ Delaunay stars, identical for any number of threads and MPI ranks.
         nodes(placement).points
     end
 
-Points are columns of `(2, n)` matrices, in space and on a sphere of `(3, n)` ones; local indices and
-offsets count from 1, global ids and MPI ranks from 0. "Collective" functions must be called by all
-ranks of the context in the same order, and throw on all of them or on none; "local" ones need not.
-One task at a time may use a context.
+Conventions:
+
+- Points are the columns of `(dim, n)` matrices, where dim is 2 in the plane and 3 in space and on a
+  sphere. Lengths, spacings and coordinates have one common unit, which the caller chooses.
+- Local indices and offsets count from 1; global ids and MPI ranks count from 0.
+- "Collective" functions must be called by all ranks of the context in the same order. If one rank
+  throws, all ranks throw. "Local" functions may be called by any rank.
+- Arrays that are passed are copied or only read during the call. Arrays that are returned belong to
+  the caller.
+- Errors of the library throw [`PNPBSError`](@ref). Arrays of a wrong size throw
+  `DimensionMismatch`.
+- One task at a time may use a context.
 """
 module PNPBS
 

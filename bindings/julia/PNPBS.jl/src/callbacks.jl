@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Passes Julia functions to the library as callbacks. A static trampoline gets the function through
-# the `user` pointer (closures in @cfunction do not exist on every processor). No exception may pass
-# through the library. The trampoline stores it in the context and returns a nonzero value, and
-# `check` throws it after the call has returned.
+# Adapters that make Julia functions callbacks of the library. A static function receives the Julia
+# function through the `user` pointer, because not all processors support closures in @cfunction.
+# Exceptions must not pass through the library. The adapter stores them in the context and returns
+# nonzero, and `check` throws them after the call has returned.
 
-# It is mutable because the library holds its address. The caller that passes it must keep it alive.
+# A Julia function with its context. It is mutable because the library holds its address. The caller
+# that passes it must keep it alive.
 mutable struct Callback
     f::Any
     context::Any
@@ -12,8 +13,8 @@ end
 
 user_pointer(callback::Callback) = pointer_from_objref(callback)
 
-# Calls `f(callback)` and returns its result to the library, unless an exception is already pending.
-# Ctrl-C takes effect here, in Julia's code and not in the library's.
+# Returns `f(callback)`, or 1 if an exception is pending or thrown. Ctrl-C takes effect here, in
+# Julia code, and not in the code of the library.
 function guarded(f, user::Ptr{Cvoid})
     callback = unsafe_pointer_to_objref(user)::Callback
     context = callback.context
@@ -26,9 +27,9 @@ function guarded(f, user::Ptr{Cvoid})
     end
 end
 
-# Makes the call `f()` of the library, which may take long. Ctrl-C must not end it at an arbitrary
-# point, which would leave the library in an invalid state. It ends the call in the next callback:
-# Every placement has a monitor, which is called about once per second.
+# Runs the call `f()` of the library, which may take long. Ctrl-C must not end it in the middle,
+# because the library would be left in an invalid state. It takes effect in the next callback. Every
+# placement has a monitor, which is called about once per second.
 function interruptible(f, context)
     context.thrown = nothing
     context.sigint_disabled = true
@@ -39,7 +40,8 @@ function interruptible(f, context)
     end
 end
 
-# The argument is copied, so that a function that keeps or changes it does no harm.
+# Returns a copy of the array of the library. A function that keeps or changes its argument thus has
+# no effect on the library.
 copied(values::Ptr{Float64}, size...) = copy(unsafe_wrap(Array, values, size))
 
 function store!(out::Ptr{Float64}, values::AbstractArray{<:Real}, wanted, what)
@@ -83,7 +85,7 @@ function call_level_set(n::Int64, dim::Int32, coordinates::Ptr{Float64}, values:
     end
 end
 
-# Only `true` stops the run, as a monitor that ends with a print returns nothing.
+# Only `true` stops the run, because a monitor that ends with a print statement returns `nothing`.
 function call_monitor(fraction::Float64, step::Int64, nodes::Int64, max_speed::Float64,
                       user::Ptr{Cvoid})
     return guarded(callback -> callback.f(fraction, step, nodes, max_speed) === true, user)

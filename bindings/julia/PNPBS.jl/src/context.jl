@@ -6,19 +6,26 @@
     Context(handle::Integer; library = nothing, options...)
     Context(f, arguments...; options...)
 
-Creates the context on which domains and placements are made. Without arguments it is for one
-process and calls no MPI function. With a communicator of MPI.jl, or with the Fortran handle of any
-communicator (`MPI_Comm_c2f`), it uses a duplicate of that communicator, and is created
-collectively; `library` is the result of `MPI_Get_library_version`, if the library should compare it
-with its own MPI. Options are defaults for the placements made on it, as in [`set!`](@ref).
+Creates a context, on which domains and placements are created.
 
-`close` it when it is no longer needed. No finalizer does, because destroying a context is
-collective and the garbage collectors of different ranks run at different times. Contexts made with
-MPI.jl are closed by `MPI.Finalize` at the latest; those with a raw handle must be closed before MPI
-is finalised.
+- Without arguments the context is for a single process, and no MPI function is called.
+- `comm` is a communicator of MPI.jl, `handle` the Fortran handle of any communicator
+  (`MPI_Comm_c2f`). The context uses a duplicate of the communicator, and its creation is
+  collective.
+- `library` is the result of `MPI_Get_library_version`. If it is given, the library compares it with
+  its own MPI.
+- `options` are the defaults of placements on this context, as in [`set!`](@ref).
+
+Throws `:error_mpi` if MPI is not running or is another MPI library, and `:error_unsupported` for a
+communicator in a build without MPI.
+
+Call `close` when the context is no longer needed. Closing is collective, and the garbage collectors
+of different ranks run at different times, so there is no finalizer. Contexts on communicators of
+MPI.jl are closed by `MPI.Finalize` at the latest. Contexts with a Fortran handle must be closed
+before MPI is finalised.
 
 The last form calls `f(context)` and closes the context, as `open` does with files. If `f` throws, a
-context on several ranks is not closed, because the others might never close theirs.
+context on several ranks is not closed, because the other ranks may not close theirs.
 
     Context() do context
         domain = Domain(context)
@@ -28,10 +35,10 @@ context on several ranks is not closed, because the others might never close the
 mutable struct Context
     handle::LibPNPBS.pnpbs_context
     on_ranks::Bool
-    # The open domains, placements, transfers and particles. They are kept here because the library
-    # holds pointers to their callbacks until they are closed.
+    # Open domains, placements, transfers and particles. The library holds pointers to their
+    # callbacks until they are closed, so they must live.
     children::Vector{Any}
-    # The exception that a callback has thrown during the current call, and its backtrace.
+    # The exception that a callback has thrown in the call in progress, with its backtrace.
     thrown::Union{CapturedException,Nothing}
     sigint_disabled::Bool  # true during a call that may take long
 
@@ -47,7 +54,7 @@ end
 
 function Context(comm::Integer; library::Union{AbstractString,Nothing} = nothing, options...)
     handle = Ref{LibPNPBS.pnpbs_context}(C_NULL)
-    # Open MPI counts the terminating zero as a part of the text, and MPI.jl does not remove it.
+    # The text of Open MPI includes the terminating null character, which MPI.jl keeps.
     check_without_context(
         library === nothing ? LibPNPBS.pnpbs_context_create_f(comm, handle) :
         LibPNPBS.pnpbs_context_create_checked_f(comm, rstrip(library, '\0'), handle))
@@ -73,10 +80,11 @@ end
     close(transfer::Transfer)
     close(particles::Particles)
 
-Releases the resources of the library. Closing twice is allowed; using a closed object is a
-[`PNPBSError`](@ref) with status `:error_handle`. Closing a context is collective and closes the
-domains, placements, transfers and particles made on it; closing those is local. A placement keeps
-what it needs of its domain, so the domain may be closed first. The arrays of particles remain.
+Releases the resources of the library. Repeated calls have no effect. Using a closed object throws a
+[`PNPBSError`](@ref) with the status `:error_handle`. Closing a context is collective and closes the
+domains, placements, transfers and particles on it. Closing the other objects is local. A placement
+keeps what it needs of its domain, so the domain may be closed first. The arrays of particles
+remain.
 """
 function Base.close(context::Context)
     isopen(context) || return nothing
@@ -90,7 +98,7 @@ end
 """
     isopen(context), isopen(domain), isopen(placement), isopen(transfer), isopen(particles)
 
-Returns whether the object has not been closed.
+Returns whether the object has not been closed. Local.
 """
 Base.isopen(context::Context) = context.handle != C_NULL
 
@@ -105,8 +113,8 @@ function live(object)
     return object.handle
 end
 
-# Checks the status of every call on a context. An exception of a callback takes precedence, as the
-# library's own message could only say that a callback failed.
+# Returns the name of the status of a call, or throws its error. An exception that a callback has
+# thrown has priority, because the error of the library only says that a callback failed.
 function check(context::Context, code)
     thrown, context.thrown = context.thrown, nothing
     thrown === nothing || throw_again(thrown)
@@ -114,8 +122,8 @@ function check(context::Context, code)
     return status_name(code)
 end
 
-# Throws the original exception. A backtrace cannot be passed to `throw`, so the point where the
-# callback threw is shown as its cause.
+# Throws the exception of a callback unchanged. `throw` accepts no backtrace, so the captured
+# exception is thrown first: Julia then shows it, with the backtrace of the callback, as the cause.
 function throw_again(thrown::CapturedException)
     try
         throw(thrown)
@@ -124,6 +132,7 @@ function throw_again(thrown::CapturedException)
     end
 end
 
+# Removes a closed object from the children of its context.
 function forget!(context::Context, child)
     filter!(other -> other !== child, context.children)
     return nothing
@@ -134,10 +143,13 @@ end
     set!(context::Context; options...) -> context
     set!(placement::Placement; options...) -> placement
 
-Sets options by name, as in `set!(placement; steps = 60, method = "paper")`; values are numbers,
-strings or symbols. [`option_table`](@ref) lists them. On a context they apply to placements made
-later; `threads` can only be set there. Local. Unknown names and values out of range are a
-[`PNPBSError`](@ref) that names the nearest option or the range.
+Sets options by name, as in `set!(placement; steps = 60, method = "paper")`. Values are numbers,
+strings or symbols. [`option_table`](@ref) lists the options. On a context they apply to placements
+that are created later; `threads` can be set only there, before the first placement of the process
+is created. Local.
+
+Throws `:error_key` for an unknown name, with the nearest known one, and `:error_argument` for a
+value out of range, with the range.
 """
 function set!(context::Context; options...)
     for (key, value) in options
@@ -146,7 +158,7 @@ function set!(context::Context; options...)
     return context
 end
 
-# The three functions of the library that set an option, for both kinds of handles.
+# Sets an option of a context with the function for the type of the value.
 set_option(handle, key, value::Integer) = LibPNPBS.pnpbs_context_set_int64(handle, key, value)
 set_option(handle, key, value::Real) = LibPNPBS.pnpbs_context_set_double(handle, key, value)
 set_option(handle, key, value) = LibPNPBS.pnpbs_context_set(handle, key, string(value))

@@ -1,52 +1,57 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A rank's part of a mesh in plain arrays. No object of the library has to be closed.
+# Distributed meshes, as plain arrays of the part of each rank. They need not be closed.
 
 """
     DistributedMesh(placement; ghost_layers = 0)
 
-Makes a distributed mesh of the current nodes: on each rank the nodes, elements and facets that it
-owns, and layers of ghost elements with their nodes, in arrays that solvers take. No rank holds more
-than its part. Elements are triangles in the plane, tetrahedra in space, and triangles on surfaces
-alone, all with positive orientation (on surfaces alone counter-clockwise as seen from the side that
-the normal points to). A node belongs to the rank that owns it in the placement, and an element to
-the owner of its node with the lowest id. The mesh is a copy: nodes may move afterwards, and the
+Creates a distributed mesh of the current nodes. On each rank it has the nodes, elements and facets
+that the rank owns, and layers of ghost elements with their nodes. No rank holds more than its part.
+Collective.
+
+Elements are triangles in the plane, tetrahedra in space, and triangles on surfaces alone. All have
+a positive orientation; on surfaces alone they are counter-clockwise as seen from the side to which
+the normal points. A node belongs to the rank that owns it in the placement, and an element to the
+owner of its node with the lowest id. The mesh is a copy: nodes may move afterwards, and the
 placement may be closed.
 
-With `ghost_layers = 0` this rank has only the elements that it owns. With 1 it also has those of
-other ranks that have a node in common with these, or with the nodes that it owns, so all elements
-at its nodes. Each further layer, up to 16, adds the elements that have a node in common with the
-layer before. All ranks give the same number. Collective.
+`ghost_layers` is 0 to 16, the same on all ranks. With 0 this rank has only the elements that it
+owns. With 1 it also has the elements of other ranks that share a node with these elements or
+contain a node that it owns, and therefore all elements at its nodes. Each further layer adds the
+elements that share a node with the previous layer.
 
 Local indices count from 1: first what this rank owns, then the ghosts. Numbers count from 0 over
-all ranks, contiguously by rank, as in [`numbering`](@ref); ids and ranks count from 0, too.
+all ranks and are contiguous by rank, as in [`numbering`](@ref). Ids and ranks count from 0, too.
 
-- `dim`: coordinates of a node, 2 or 3.
+- `dim`: number of coordinates of a node, 2 or 3.
 - `owned_nodes`, `owned_elements`: how many this rank owns.
-- `first_node`, `first_element`: its node i has the number `first_node + i - 1`; elements likewise.
-- `all_nodes`, `all_elements`: how many there are over all ranks, each counted once.
-- `coordinates`: of the nodes here, `(dim, nodes)`.
-- `numbers`, `ids`, `owners`, `tags`: of each node; tags as in [`nodes`](@ref).
-- `elements`: local indices of their corners, `(3, elements)` or `(4, elements)`.
-- `element_numbers`, `element_owners`, `element_tags`: of each element; the tag is that of the
-  region it lies in ([`add_region!`](@ref)), or 0 if the region has none; on surfaces alone, that of
+- `first_node`, `first_element`: the owned node i has the number `first_node + i - 1`; likewise for
+  elements.
+- `all_nodes`, `all_elements`: how many exist over all ranks, each counted once.
+- `coordinates`: those of the nodes on this rank, `(dim, nodes)`.
+- `numbers`, `ids`, `owners`, `tags`: one of each per node; tags are those of [`nodes`](@ref).
+- `elements`: local indices of corners, `(3, elements)` or `(4, elements)`.
+- `element_numbers`, `element_owners`, `element_tags`: one of each per element. The tag is that of
+  the region ([`add_region!`](@ref)), or 0 if the region has none; on surfaces alone it is that of
   the surface.
-- `connectivity`: numbers of the nodes at the corners, of the same size as `elements`.
-- `facets`: local indices of the nodes of facets of these elements, `(2, facets)` or `(3, facets)`:
-  edges of triangles in the plane that are parts of the boundary or of inner curves, in the
-  direction of the curve; triangles of tetrahedra that are parts of the boundary or of inner
-  surfaces, counter-clockwise as seen from outside, or turning as the inner surface does; on
-  surfaces alone the edges of only one triangle. Each comes once on a rank.
-- `facet_tags`: of the curve or surface; on surfaces alone, of the surface.
-- `facet_elements`: local indices of the elements at it, `(2, facets)`; the second is 0 if there is
-  none, or if it is not on this rank.
-- `facet_opposite`: the corner of the first of them, from 1, that is none of the facet's.
-- `facet_inner`: whether there are elements on both sides, on whichever ranks.
-- `facet_owners`: the rank it belongs to, the owner of its element with the lowest number.
-- `shared_nodes`: local indices of the nodes that this rank shares, by number. A node is shared by
-  its owner and the ranks that own an element at it.
-- `sharing_ranks`: [`CompressedRows`](@ref) of the other ranks that share each of `shared_nodes`.
+- `connectivity`: numbers of the nodes at the corners, in the size of `elements`.
+- `facets`: local indices of the nodes of the facets of these elements, `(2, facets)` or `(3,
+  facets)`. In the plane, facets are edges on the boundary or on inner curves, in the direction of
+  the curve. In space, they are triangles on the boundary, counter-clockwise as seen from outside,
+  or on inner surfaces, oriented as the surface. On surfaces alone, they are the edges of only one
+  triangle. Each facet occurs once on a rank.
+- `facet_tags`: tag of the curve or surface; on surfaces alone that of the surface.
+- `facet_elements`: local indices of the elements at each facet, `(2, facets)`. The second is 0 if
+  it does not exist or is not on this rank.
+- `facet_opposite`: index, from 1, of the corner of the first element that is not a corner of the
+  facet.
+- `facet_inner`: whether elements lie on both sides of the facet, on any ranks.
+- `facet_owners`: the rank to which the facet belongs, the owner of its element with the lowest
+  number.
+- `shared_nodes`: local indices of the nodes that this rank shares, in the order of numbers. A node
+  is shared by its owner and the ranks that own an element at it.
+- `sharing_ranks`: [`CompressedRows`](@ref) with the other ranks that share each of `shared_nodes`.
 
-For example, what a loop over the elements of this rank needs:
+A loop over the elements of this rank, for example, is
 
     mesh = DistributedMesh(placement; ghost_layers = 1)
     for e in 1:mesh.owned_elements
@@ -54,10 +59,10 @@ For example, what a loop over the elements of this rank needs:
         add_element!(matrix, mesh.numbers[corners], mesh.coordinates[:, corners])
     end
 
-A mesh that is on one rank goes to Ferrite.jl by `Ferrite.Grid(mesh)`, to Gridap.jl by
-`Gridap.Geometry.UnstructuredDiscreteModel(mesh)`, with a facet set or a tag of the name `"tag_7"`
-for the facets with tag 7. The elements with tag 7 are the cell set of this name in Ferrite, and have
-the tag `"region_7"` in Gridap. Julia 1.9 and later load these methods with the packages.
+A mesh on one rank is converted for Ferrite.jl by `Ferrite.Grid(mesh)` and for Gridap.jl by
+`Gridap.Geometry.UnstructuredDiscreteModel(mesh)`. The facets with tag 7 become a facet set or a tag
+named `"tag_7"`. The elements with tag 7 become the cell set `"tag_7"` in Ferrite, and have the tag
+`"region_7"` in Gridap. Julia 1.9 and later load these methods with the packages.
 """
 Base.@kwdef struct DistributedMesh
     dim::Int
@@ -94,15 +99,19 @@ end
 """
     write_mesh(placement, prefix; ghost_layers = 1) -> Placement
 
-Writes a distributed mesh of the current nodes (see [`DistributedMesh`](@ref)) in files of Gmsh's
-format 4.1, in parts as Gmsh partitions a mesh: rank r writes `prefix_<r + 1>.msh`, partition r + 1.
-The file has the nodes, elements and ghost elements of the rank and the facets that it owns. Nodes
-and elements have their numbers plus 1, and facets are numbered behind all elements, so that the
-files have the same numbers for the same things. Tags are physical groups, named as by
-[`write_file`](@ref); the inside is one, too. Programs that read ghost elements, such as deal.II,
-need one ghost layer; with none the files have none. All files appear when all are complete; after
-an error, existing files are unchanged. Files of an earlier mesh on more ranks remain. All ranks
-give the same prefix: folder and begin of the names of the files. Collective.
+Writes a distributed mesh of the current nodes (see [`DistributedMesh`](@ref)) into files of Gmsh's
+format 4.1, partitioned as Gmsh does it: rank r writes partition r + 1 to `prefix_<r + 1>.msh`.
+`prefix` is the folder and the beginning of the names of the files, the same on all ranks.
+Collective.
+
+A file has the nodes, elements and ghost elements of the rank and the facets that it owns. Nodes and
+elements have their numbers plus 1, and facets are numbered after all elements, so all files use the
+same numbers. Tags are physical groups, named as by [`write_file`](@ref); the inside is a group,
+too. Programs that read ghost elements, such as deal.II, need one ghost layer. All files appear when
+all are complete. If the call throws, existing files do not change. Files of an earlier mesh on more
+ranks remain.
+
+Throws `:error_file` if a rank cannot write, with the name of its file.
 """
 function write_mesh(placement::Placement, prefix::AbstractString; ghost_layers::Integer = 1)
     with_mesh(placement, ghost_layers) do mesh
@@ -111,7 +120,7 @@ function write_mesh(placement::Placement, prefix::AbstractString; ghost_layers::
     return placement
 end
 
-# Returns body(mesh), where the mesh of the library exists during this call only.
+# Returns body(mesh) for a new mesh of the library, which is destroyed afterwards.
 function with_mesh(body, placement, ghost_layers)
     context = placement.context
     handle = Ref{LibPNPBS.pnpbs_mesh}(C_NULL)

@@ -3,15 +3,19 @@
 """
     Domain(context::Context; dim = 2)
 
-Creates an empty domain in the plane, or with `dim = 3` in space, to which curves, surfaces, holes
-and fixed nodes are added. A point is inside if it lies behind an odd number of boundary curves, or
-surfaces in space; holes and islands nest to any depth. Every function on domains is local, and its
-points are the columns of a `(dim, n)` matrix. Functions for domains "in the plane" or "in space"
-reject others, with a [`PNPBSError`](@ref) with status `:error_argument` or a `DimensionMismatch`.
+Creates an empty domain in the plane, or with `dim = 3` in space. Curves, surfaces, holes and fixed
+nodes are added to it. A point is inside the domain if it lies behind an odd number of boundary
+curves, or of boundary surfaces in space. Holes and islands nest to any depth. All functions on
+domains are local. Those that add or set something return the domain. Points are the columns of
+`(dim, n)` matrices, which are copied. Functions for domains "in the plane" or "in space" throw a
+[`PNPBSError`](@ref) with the status `:error_argument`, or a `DimensionMismatch`, for others.
 
-The `role` of a curve or surface is `:boundary`, which separates inside from outside, or `:inner`,
-which lies in the domain and which the nodes follow; curves in space are always `:inner`. Its `tag`
-is a nonzero integer that marks the nodes on it.
+Common arguments:
+
+- `role`: `:boundary` for a curve or surface that separates inside from outside; `:inner` for one
+  inside the domain that nodes follow. Curves in space are always `:inner`.
+- `tag`: a nonzero integer that marks the nodes on a curve or surface. `tags` is one number for all
+  segments or triangles, or one for each; `nothing` stands for 1.
 """
 mutable struct Domain
     handle::LibPNPBS.pnpbs_domain
@@ -31,15 +35,18 @@ end
     sphere_domain(context, radius, outside) -> Domain
 
 Creates an empty domain on a sphere about the origin. Its nodes lie on the sphere, spacings are
-lengths along it, and points are the columns of a `(3, n)` matrix. Boundary curves
-([`add_polyline!`](@ref)) follow great circles from vertex to vertex; the domain is what lies behind
-an odd number of them, seen from a point in the direction `outside`, three numbers of any length
-except 0. Nodes are placed in the stereographic projection from that point, which should be ten
-spacings or more away from the domain. Without a boundary curve the domain is the whole sphere, on
-which nodes around that point are laid first. Placements have [`triangles`](@ref) and
-[`boundary_edges`](@ref), as in the plane. Not on a sphere yet: particles, arcs,
-parametric curves, files of curves other than those of [`Shapes`](@ref), and spacing given on grids,
-meshes or points.
+lengths along it, and points are the columns of `(3, n)` matrices. Boundary curves
+([`add_polyline!`](@ref)) follow great circles from vertex to vertex. The domain lies behind an odd
+number of them, as seen from a point outside in the direction `outside`, three numbers that are not
+all 0. Nodes are placed in the stereographic projection from that point, which should be at least
+ten spacings away from the domain. Placements have [`triangles`](@ref) and [`boundary_edges`](@ref),
+as in the plane.
+
+Without a boundary curve the domain is the whole sphere. Nodes around the point are laid first and
+stay fixed then.
+
+The following are not available on a sphere: particles and offsets, arcs, parametric curves, graphs,
+holes of a whole sphere, and files of curves other than those of [`Shapes`](@ref).
 
     ring = sphere_points(1, [permutedims(0:2:358); fill(-70, 1, 180)])
     sea = add_polyline!(sphere_domain(context, 1, (0, 0, -1)), ring; corner_angle = 30)
@@ -57,8 +64,8 @@ end
 """
     sphere_points(radius, degrees)
 
-Computes points on a sphere about the origin, `(3, n)`, from longitude and latitude: `degrees` is
-`(2, n)`, with longitudes that may exceed a full turn and latitudes from -90 to 90.
+Computes points on a sphere about the origin, `(3, n)`, from longitude and latitude. `degrees` is
+`(2, n)`, with longitudes that may exceed a full turn and latitudes from -90 to 90. Local.
 """
 function sphere_points(radius::Real, degrees::AbstractMatrix{<:Real})
     places = as_points(degrees, 2, "degrees")
@@ -70,8 +77,8 @@ end
 """
     sphere_degrees(coordinates)
 
-Computes longitude, from -180 to 180, and latitude, from -90 to 90, of the directions of points: a
-`(2, n)` matrix for the columns of `coordinates`, `(3, n)`, none of them 0.
+Computes longitudes, from -180 to 180, and latitudes, from -90 to 90, of the directions of points.
+`coordinates` is `(3, n)`, without points at 0. Returns a `(2, n)` matrix. Local.
 """
 function sphere_degrees(coordinates::AbstractMatrix{<:Real})
     points = as_points(coordinates, 3, "coordinates")
@@ -93,7 +100,7 @@ end
 """
     ndims(domain), ndims(placement), ndims(transfer)
 
-Returns the dimension: 2 in the plane, 3 in space and on a sphere. Local.
+Returns the dimension of points: 2 in the plane, 3 in space and on a sphere. Local.
 """
 function Base.ndims(domain::Domain)
     dim = Ref{Int32}(0)
@@ -113,11 +120,14 @@ end
     add_polyline!(domain, coordinates; closed = true, role = :boundary, tags = nothing,
                   corner_angle = 0)
 
-Adds straight segments through the columns of `coordinates`; with `closed`, a segment joins the last
-to the first. `tags` is one for all segments or one for each. With `corner_angle = 0` every vertex
-becomes a node; otherwise only those where the direction turns by more than this many degrees, and
-between them the polyline represents a smooth curve. In space the `role` is `:inner`, and the
-`feature_angle` of the surfaces replaces the `corner_angle`.
+Adds straight segments through vertices. On a sphere the segments are parts of great circles.
+
+- `coordinates`: the vertices, `(dim, n)`.
+- `closed`: whether a segment joins the last vertex to the first one.
+- `corner_angle`: in degrees. With 0 every vertex becomes a node. Otherwise only vertices where the
+  direction turns by more than this angle become nodes, and ends of open polylines and vertices
+  where curves meet. Between them the polyline represents a smooth curve. In space the `role` is
+  `:inner`, and the `feature_angle` of the surfaces is used instead.
 """
 function add_polyline!(domain::Domain, coordinates::AbstractMatrix{<:Real}; closed::Bool = true,
                        role::Symbol = :boundary, tags = nothing, corner_angle::Real = 0)
@@ -134,12 +144,15 @@ end
     add_surface!(domain, coordinates, corners; role = :boundary, tags = nothing,
                  feature_angle = 40)
 
-Adds a triangulated surface to a domain in space: `corners` is `(3, m)`, indices of columns of
-`coordinates` from 1. Closed surfaces with the role `:boundary` bound the domain; nodes follow
-`:inner` ones, closed or open. Coincident vertices are merged; the orientation is determined by what
-the triangles enclose. `tags` is one for all triangles or one for each. Nodes lie on the edge
-between two triangles if their normals differ by more than `feature_angle` degrees, or if their tags
-differ. Between such edges the triangles only define the shape, whatever their size.
+Adds a triangulated surface to a domain in space. Closed surfaces with the role `:boundary` bound
+the domain. Nodes follow `:inner` surfaces, which may be open. Coincident vertices are merged. The
+triangles may have any orientation, because the enclosed volume determines it.
+
+- `coordinates`: the vertices, `(3, n)`.
+- `corners`: indices of vertices from 1, `(3, m)`.
+- `feature_angle`: in degrees. Nodes lie on an edge between two triangles if their normals differ by
+  more than this angle, or if their tags differ. Between such edges the triangles only define the
+  shape, whatever their size is.
 """
 function add_surface!(domain::Domain, coordinates::AbstractMatrix{<:Real},
                       corners::AbstractMatrix{<:Integer}; role::Symbol = :boundary, tags = nothing,
@@ -157,9 +170,10 @@ end
 """
     read_surface!(domain, path; role = :boundary, feature_angle = 40)
 
-Reads a surface from a file into a domain in space: .stl (text or binary), .off, .obj, .ply, or
-TetGen's .poly and .smesh. Solids, groups, materials and facet markers become tags with their names
-([`tag_names`](@ref)); hole points become holes of the domain. Otherwise as [`add_surface!`](@ref).
+Adds a surface from a file to a domain in space, as [`add_surface!`](@ref) does. The formats are
+.stl (text or binary), .off, .obj, .ply, and TetGen's .poly and .smesh. Solids, groups, materials
+and facet markers become tags with their names ([`tag_names`](@ref)). Hole points become holes of
+the domain. Throws `:error_file` with file, line and what was expected.
 """
 function read_surface!(domain::Domain, path::AbstractString; role::Symbol = :boundary,
                        feature_angle::Real = 40)
@@ -172,8 +186,8 @@ end
     set_role!(domain, tag, role)
 
 Sets the role, `:boundary` or `:inner`, of all triangles with a tag in a domain in space. It
-overrides the role they are added with, before or after, so that single groups of a file can be
-inner surfaces.
+overrides the role with which they are added, before or after this call, so that single groups of a
+file can be inner surfaces. Checking the domain fails if no triangle has the tag.
 """
 function set_role!(domain::Domain, tag::Integer, role::Symbol)
     check(domain.context, LibPNPBS.pnpbs_domain_set_role(live(domain), tag, role_number(role)))
@@ -183,12 +197,14 @@ end
 """
     read_msh!(domain, path; feature_angle = 40)
 
-Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary and what lies
-in it to the domain. In space triangles and quadrangles are boundary, or inner surfaces where the
-domain is on both sides, and lines and points in physical groups are inner curves and fixed nodes.
-In the plane the same holds for lines and for the edges that bound triangles. The tag of a physical
-group becomes the tag, and its name is kept ([`tag_names`](@ref)). `feature_angle` is that of
-[`add_surface!`](@ref), in the plane the `corner_angle` of [`add_polyline!`](@ref).
+Reads a mesh in Gmsh's MSH format, 4.1 or 2.2, text or binary, and adds its boundary and the curves,
+surfaces and points inside to the domain. In space, triangles and quadrangles become boundary, or
+inner surfaces if the domain lies on both sides. Lines and points in physical groups become inner
+curves and fixed nodes. In the plane, lines and the edges that bound triangles become boundary or
+inner curves likewise. The tag of a physical group becomes the tag, and its name is kept
+([`tag_names`](@ref)). `feature_angle` is that of [`add_surface!`](@ref), in the plane the
+`corner_angle` of [`add_polyline!`](@ref). Throws `:error_file` with file, line or byte, and what
+was expected.
 """
 function read_msh!(domain::Domain, path::AbstractString; feature_angle::Real = 40)
     check(domain.context, LibPNPBS.pnpbs_domain_read_msh(live(domain), path, feature_angle))
@@ -198,8 +214,9 @@ end
 """
     file_dimension(path)
 
-Returns the dimension of the domain that a file describes, 2 or 3, from its extension; for .poly
-from the second number in the file, for .msh from whether the mesh lies in a plane of constant z.
+Returns the dimension of the domain that a file describes, 2 or 3. The extension determines it. For
+.poly it is the second number in the file; for .msh it is 2 if the mesh lies in a plane of constant
+z. Throws `:error_file` if a .msh file cannot be read; other files are not checked. Local.
 """
 function file_dimension(path::AbstractString)
     dim = Ref{Int32}(0)
@@ -210,8 +227,9 @@ end
 """
     set_tag_name!(domain, dim, tag, name)
 
-Sets the name of a tag of points (`dim` 0), curves (1), surfaces (2) or bodies (3); the inside of
-the domain has the domain's dimension. Files with physical groups (.msh) contain it.
+Sets the name of a tag, for files with physical groups (.msh). `dim` is the dimension of the entity
+with the tag: 0 for points, 1 for curves, 2 for surfaces, 3 for bodies. The inside of the domain has
+the dimension of the domain.
 """
 function set_tag_name!(domain::Domain, dim::Integer, tag::Integer, name::AbstractString)
     check(domain.context, LibPNPBS.pnpbs_domain_set_tag_name(live(domain), dim, tag, name))
@@ -221,7 +239,7 @@ end
 """
     tag_names(domain)
 
-Returns the names of tags, set or from files: a vector of named tuples `(dim, tag, name)`.
+Returns the names of tags, set or from files, as a vector of named tuples `(dim, tag, name)`.
 """
 function tag_names(domain::Domain)
     count = Ref{Int32}(0)
@@ -238,7 +256,7 @@ end
 """
     add_box!(domain, low, high; tag = 1)
 
-Adds a box to a domain in space; its sides bound the domain.
+Adds a box to a domain in space. Its sides bound the domain. `low` and `high` are opposite corners.
 """
 function add_box!(domain::Domain, low, high; tag::Integer = 1)
     check(domain.context,
@@ -261,7 +279,7 @@ end
 """
     add_cylinder!(domain, from, to, radius; tag = 1)
 
-Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius; `from` and
+Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius. `from` and
 `to` are the centres of its two circles.
 """
 function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
@@ -274,16 +292,22 @@ end
 """
     add_level_set!(f, domain, low, high, resolution; tag = 1, per_point = false)
 
-Adds the body where a function is negative to a domain in space: `f(x)` gets the points as a `(3,
-n)` matrix and returns a vector of `n` values. It must always return the same value for the same
-point, be continuous, and be finite everywhere in the box between `low` and `high`, where the body
-must lie; it need not be a distance. Its surface is found on an octree refined near `f = 0` down to
-cells of side `resolution`. Thinner features can be lost, and so can a body that is small relative
-to the box and towards which `f` does not decrease. Nodes on the surface lie where `f = 0`, and on
-its edges, where the gradient of `f` jumps by more than 40 degrees; these stay rounded, with a
-warning, where triangles would cross. The resolution should be no more than the spacing there, and
-half of the minimum radius of curvature. With `per_point` the function is called as `f(x, y, z)`,
-for each point by itself, and returns a number.
+Adds the body where a function is negative to a domain in space. Its surface is found on an octree
+that is refined near `f = 0` down to cells of side `resolution`. Thinner features can be lost, and
+so can a body that is small relative to the box and towards which `f` does not decrease. Nodes on
+the surface lie where `f = 0`, and on its edges, where the gradient of `f` jumps by more than 40
+degrees. Where triangles would cross, edges stay rounded, with a warning.
+
+- `f`: a function `f(x)` that receives points as a `(3, n)` matrix and returns a vector of `n`
+  values. It must be pure, continuous and finite in the whole box; it need not be a distance. It is
+  called now and while placements compute, so the domain keeps it. With `per_point` it is called as
+  `f(x, y, z)` for each point and returns a number.
+- `low`, `high`: opposite corners of a box that contains the body.
+- `resolution`: no more than the spacing at the surface, and half of the minimum radius of
+  curvature.
+
+Throws `:error_domain` if `f` is not finite, or negative on the border of the box, with the point,
+or if it is negative nowhere.
 
     add_level_set!(body, (-2, -2, -1), (2, 2, 1), 0.1) do x
         hypot.(hypot.(x[1, :], x[2, :]) .- 1, x[3, :]) .- 0.4
@@ -306,8 +330,8 @@ end
 """
     add_arc!(domain, centre, radius; from = 0, to = 2pi, role = :boundary, tag = 1)
 
-Adds a circular arc between two angles in radians, a full circle by default, to a domain in the
-plane. Its ends join curves that end at the same point.
+Adds a circular arc between two angles in radians, by default a full circle, to a domain in the
+plane. Its ends join curves that end at the same point, to within 1e-9 of the size of the domain.
 """
 function add_arc!(domain::Domain, centre, radius::Real; from::Real = 0, to::Real = 2pi,
                   role::Symbol = :boundary, tag::Integer = 1)
@@ -320,10 +344,12 @@ end
 """
     add_curve!(f, domain, from, to; role = :boundary, tag = 1, per_point = false)
 
-Adds the curve of a function to a domain in the plane: `f(t)` gets a vector of parameters between
-`from` and `to` and returns the points as a `(2, length(t))` matrix. It must always return the same
-point for the same parameter, be continuous, and not cross itself. Corners exist only where curves
-meet. With `per_point` it gets one parameter at a time and returns the two coordinates of the point.
+Adds a curve that a function defines to a domain in the plane. `f(t)` receives a vector of
+parameters between `from` and `to` and returns points as a `(2, length(t))` matrix. It must be pure
+and continuous, and the curve must not cross itself. Corners exist only where curves meet. A curve
+whose ends coincide is closed. The function is called now and whenever a placement is initialised,
+so the domain keeps it. With `per_point` it receives one parameter and returns the two coordinates
+of the point.
 
     add_curve!(domain, 0, 2pi) do t
         [cos.(t) 0.5 .* sin.(t)]'
@@ -346,9 +372,15 @@ end
     add_pslg!(domain, coordinates, segments; vertex_tags = nothing, segment_tags = nothing,
               holes = nothing)
 
-Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The domain is
-what the segments enclose, except the regions that contain a hole point. `segments` is `(2, m)`,
-indices of columns of `coordinates` from 1; `holes` is `(2, h)`. Every vertex becomes a node.
+Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The segments
+enclose the domain, except for regions that contain a hole point. Every vertex becomes a node,
+unless [`set_corner_angle!`](@ref) is called. This rule then holds for all curves of the domain.
+
+- `coordinates`: the vertices, `(2, n)`.
+- `segments`: indices of vertices from 1, `(2, m)`.
+- `vertex_tags`: tags of vertices; 0 stands for the tag of the segment.
+- `segment_tags`: tags of segments.
+- `holes`: a point in each hole, `(2, h)`.
 """
 function add_pslg!(domain::Domain, coordinates::AbstractMatrix{<:Real},
                    segments::AbstractMatrix{<:Integer};
@@ -370,11 +402,11 @@ end
 """
     set_filled!(domain, filled)
 
-Sets whether a domain in space is the volume enclosed by its surfaces (the default) or, with
-`false`, the surfaces alone: nodes on them, triangles between these nodes
-([`boundary_triangles`](@ref)), and no interior. Both roles are then equivalent, and surfaces may be
-closed or open. Polylines must follow edges of the triangles, fixed nodes must be vertices of them,
-and there are no holes.
+Sets whether a domain in space is the volume enclosed by its surfaces, which is the default. With
+`false` it is the surfaces alone: nodes lie on them, triangles join these nodes
+([`boundary_triangles`](@ref)), and there is no interior. Both roles are equivalent then, and
+surfaces may be closed or open. Polylines must follow edges of the triangles, fixed nodes must be
+vertices of them, and there are no holes.
 """
 function set_filled!(domain::Domain, filled::Bool)
     check(domain.context, LibPNPBS.pnpbs_domain_set_filled(live(domain), filled))
@@ -385,13 +417,14 @@ end
     set_repair!(domain, resolution = 0)
 
 Repairs the triangulated boundary surfaces of a domain in space that enclose one body imperfectly:
-open, crossing, folded or inconsistently oriented. Sound surfaces are unchanged, and a warning
-reports that nothing is repaired. The body is where they wind around a point more than half a time,
-in either orientation. Holes are closed, overlapping bodies are joined, and surfaces that enclose
-nothing are dropped. The surface of the body is extracted as that of a level set, with its sharp
-edges; all of it has the tag of the first triangle. A warning reports its distance from the given
-triangles. Features thinner than the resolution can be lost: it should be no more than the spacing
-at the surface; 0 is 1/64 of the longest side of the bounding box of the triangles.
+open, crossing, folded or inconsistently oriented. Sound surfaces do not change, and a warning
+reports that nothing is repaired. The body is the set of points around which the surfaces wind more
+than half a time, in either orientation. Holes are closed, overlapping bodies are joined, and
+surfaces that enclose nothing are removed. The surface of the body is extracted as that of a level
+set, with its sharp edges. All of it has the tag of the first triangle. A warning reports its
+distance from the given triangles. Features thinner than the resolution can be lost. `resolution` is
+at least 0, and no more than the spacing at the surface. 0 stands for 1/64 of the longest side of
+the bounding box of the triangles.
 """
 function set_repair!(domain::Domain, resolution::Real = 0)
     check(domain.context, LibPNPBS.pnpbs_domain_set_repair(live(domain), resolution))
@@ -402,7 +435,8 @@ end
     set_resurfaced!(domain, resolution = 0)
 
 Replaces the triangulated boundary surfaces of a domain in space as [`set_repair!`](@ref) does, even
-if they need no repair: this removes what is finer than the resolution from a body.
+if they need no repair. This removes features of the body that are smaller than the resolution. The
+last call of `set_repair!` or `set_resurfaced!` is effective.
 """
 function set_resurfaced!(domain::Domain, resolution::Real = 0)
     check(domain.context, LibPNPBS.pnpbs_domain_set_resurfaced(live(domain), resolution))
@@ -413,11 +447,11 @@ end
     set_corner_angle!(domain, corner_angle)
 
 Sets the corner angle of the graphs of a domain in the plane ([`add_pslg!`](@ref),
-[`read_poly!`](@ref), [`parse_poly!`](@ref)), both those already added and later ones. Corners are
-vertices where the direction turns by more than this many degrees, where segments of different tags
-or other than two of them end, and vertices with a tag of their own. Nodes lie on corners; between
-them a graph represents a smooth curve, with nodes spaced by d. With 0, the default, every vertex
-becomes a node.
+[`read_poly!`](@ref), [`parse_poly!`](@ref)), both of those added already and of later ones. Corners
+are vertices where the direction turns by more than this angle in degrees, where segments of
+different tags or other than two segments end, and vertices with a tag of their own. Nodes lie on
+corners. Between corners a graph represents a smooth curve, with nodes spaced by d. With 0, the
+default, every vertex becomes a node.
 """
 function set_corner_angle!(domain::Domain, corner_angle::Real)
     check(domain.context, LibPNPBS.pnpbs_domain_set_corner_angle(live(domain), corner_angle))
@@ -427,14 +461,15 @@ end
 """
     simplify!(d, domain; tolerance = 0.25, smallest = 0, per_point = false) -> (vertices, curves)
 
-Removes features finer than d, such as those of coastlines, from a domain in the plane. From the
-graphs and polylines added so far, it removes vertices next to segments shorter than d, as long as
-the curve then passes them within `tolerance` times d, and closed curves, islands and lakes, whose
-extent (the longer side of their bounding box) is less than `smallest` times d. `d` is a number or a
-function as in [`set_spacing!`](@ref). No other vertex, fixed node or hole point changes to another
-side of a curve. Vertices are kept where curves meet or end, where tags change or a vertex has its
-own, and at fixed nodes. Returns the numbers of removed vertices, including those of the curves, and
-of removed curves. Must be called identically on all ranks.
+Removes features smaller than d, such as those of coastlines, from the graphs and polylines of a
+domain in the plane. It removes vertices next to segments shorter than d, as long as the curve then
+passes them within `tolerance` times d. It also removes closed curves, such as islands and lakes,
+whose extent is less than `smallest` times d, where the extent is the longer side of the bounding
+box. No other vertex, fixed node or hole point changes to another side of a curve. Vertices are kept
+where curves meet or end, where tags change, where a vertex has a tag of its own, and at fixed
+nodes. `d` is a number, or a function as in [`set_spacing!`](@ref). All ranks must make the same
+call. If the call throws, the domain does not change. Returns the numbers of removed vertices,
+including those of removed curves, and of removed curves.
 
     simplify!(domain; smallest = 2) do x
         0.2 .+ 0.05 .* hypot.(x[1, :], x[2, :])
@@ -454,14 +489,15 @@ function simplify!(d, domain::Domain; tolerance::Real = 0.25, smallest::Real = 0
 end
 simplify!(d::Real, domain::Domain; options...) = simplify!(evenly(d), domain; options...)
 
-# Returns a number as a spacing function.
+# Returns the spacing function with a constant value.
 evenly(d::Real) = x -> fill(Float64(d), size(x, 2))
 
 """
     simplify_by_file!(domain, path; field = "", tolerance = 0.25, smallest = 0) -> (vertices, curves)
 
-Does the same as [`simplify!`](@ref) with a spacing from a file with values at points, as in
-[`set_spacing_file!`](@ref).
+Removes features as [`simplify!`](@ref) does, with a spacing from a file with values at points, as
+in [`set_spacing_file!`](@ref). Throws `:error_file` if the file cannot be read, and
+`:error_spacing` for values that are zero, negative or not finite.
 """
 function simplify_by_file!(domain::Domain, path::AbstractString; field::AbstractString = "",
                            tolerance::Real = 0.25, smallest::Real = 0)
@@ -476,17 +512,22 @@ end
     add_offset!(d, domain, body, low, high; resolution = 0, tag = 1, per_point = false)
     add_offset!(domain, body, low, high; resolution = 0, tag = 1)
 
-Adds the body between two distances from the boundary of another domain: points whose signed
-distance to it, negative inside, lies between `low` and `high` times d; without `d` they are
-lengths. Particles that each stand for d^dim of matter lie half a spacing inside the wall: they are
-placed between `low = -Inf` and `high = -0.42` in the plane, `-0.46` in space, as nodes with a
-spacing of 1.076 d or 1.147 d. Their number is then nearly the integral of 1 / d^dim over the body.
-n layers of wall particles lie outside, between 0.42 and n - 0.58 or, in space, 0.46 and n - 0.54.
-`d` is a number or a function as in [`set_spacing!`](@ref), which is evaluated in the body's
-bounding box, and as far around it as the new body reaches, and a little farther. The boundary, with
-the `tag`, is found as that of a level set ([`add_level_set!`](@ref)) with this resolution, 0 for an
-eighth (in space half) of the least d at the body's boundary, without `d` of the lesser of
-`abs(low)` and `abs(high)`; what is thinner is lost. Must be called identically on all ranks.
+Adds the body between two distances from the boundary of another domain. A point belongs to it if
+its signed distance from that boundary, negative inside, lies between `low` and `high` times d.
+Without `d` they are lengths. All ranks must make the same call.
+
+Particles that each represent d^dim of matter lie half a spacing inside the wall. To place them, use
+`low = -Inf` and `high = -0.42` in the plane or `-0.46` in space, with nodes of the spacing 1.076 d
+or 1.147 d. Their number is then nearly the integral of 1 / d^dim over the body. n layers of wall
+particles lie outside, between 0.42 and n - 0.58, or in space between 0.46 and n - 0.54.
+
+`d` is a number, or a function as in [`set_spacing!`](@ref). It is evaluated in the bounding box of
+the body and around it, a little farther than the new body reaches. The boundary has the `tag` and
+is found as that of a level set ([`add_level_set!`](@ref)) with this resolution; thinner parts are
+lost. A resolution of 0 stands for an eighth, in space half, of the least d at the boundary of the
+body, or without `d` of the lesser of `abs(low)` and `abs(high)`.
+
+Throws `:error_domain` if the body is invalid or nothing lies between these distances.
 
     add_offset!(x -> 0.1 .+ 0.05 .* x[1, :], inset, body, -Inf, -0.42)
     add_offset!(0.1, walls, body, 0.42, 2.42)  # three layers
@@ -517,7 +558,7 @@ end
 """
     add_hole!(domain, point)
 
-Removes the region around a point from the domain, up to the next curves or surfaces.
+Removes the region around a point from the domain, up to the next curves or surfaces of either role.
 """
 function add_hole!(domain::Domain, point)
     check(domain.context,
@@ -528,11 +569,12 @@ end
 """
     add_region!(domain, point, tag)
 
-Gives a tag, not 0, to the region around a point, up to the next curves or surfaces: elements that
-lie in it have this tag ([`element_tags`](@ref), [`DistributedMesh`](@ref)), in files too. So inner
-curves and surfaces divide a domain into materials. Elements of regions without a point have the
-tag 0. [`check_domain`](@ref) throws `:error_domain` if the point lies outside the domain, on a
-curve or surface, or in a region with another tag.
+Gives a tag, which is not 0, to the region around a point, up to the next curves or surfaces of
+either role. Elements in the region have this tag ([`element_tags`](@ref),
+[`DistributedMesh`](@ref)), also in files. Inner curves and surfaces thus divide a domain into
+materials. Elements of regions without a point have the tag 0. [`check_domain`](@ref) throws
+`:error_domain` if the point lies outside the domain, on a curve or surface, or in a region with
+another tag.
 """
 function add_region!(domain::Domain, point, tag::Integer)
     check(domain.context,
@@ -544,8 +586,8 @@ end
 """
     add_fixed_nodes!(domain, coordinates; tags = nothing)
 
-Adds fixed nodes, which keep their exact coordinates, inside the domain or on a vertex of its curves
-or surfaces.
+Adds fixed nodes, which keep their exact coordinates. They must lie inside the domain or on a vertex
+of its curves or surfaces. `coordinates` is `(dim, n)`.
 """
 function add_fixed_nodes!(domain::Domain, coordinates::AbstractMatrix{<:Real}; tags = nothing)
     points = as_points(coordinates, ndims(domain), "coordinates")
@@ -558,7 +600,8 @@ end
 """
     read_poly!(domain, path)
 
-Reads a file in Triangle's .poly format and adds its content to a domain in the plane.
+Adds the content of a file in Triangle's .poly format to a domain in the plane, as
+[`add_pslg!`](@ref) does. Throws `:error_file` with file, line and what was expected.
 """
 function read_poly!(domain::Domain, path::AbstractString)
     check(domain.context, LibPNPBS.pnpbs_domain_read_poly(live(domain), path))
@@ -568,8 +611,8 @@ end
 """
     parse_poly!(domain, text; name = "text")
 
-Adds the content of a text in Triangle's .poly format to a domain in the plane; `name` is the name
-of the text in messages.
+Adds the content of a text in Triangle's .poly format to a domain in the plane, as
+[`read_poly!`](@ref) does. `name` is the name of the text in messages.
 """
 function parse_poly!(domain::Domain, text::AbstractString; name::AbstractString = "text")
     bytes = String(text)
@@ -581,9 +624,9 @@ end
 """
     check_domain(domain)
 
-Checks the whole geometry: duplicate vertices, crossings, open boundaries, hole points outside. A
-[`PNPBSError`](@ref) with status `:error_domain` names the vertex, segment or triangle. Placements
-check it, too; checking early adds no cost.
+Checks the whole geometry: duplicate vertices, crossings, boundaries that do not close, hole points
+outside, fixed nodes outside or too close. Placements check it, too; an early check adds no cost.
+Throws `:error_domain` with the vertex, segment or triangle.
 """
 function check_domain(domain::Domain)
     check(domain.context, LibPNPBS.pnpbs_domain_check(live(domain)))
@@ -605,7 +648,8 @@ end
 """
     measure(domain) -> Float64
 
-Returns the area of the inside, in space its volume.
+Returns the area of the inside, in space its volume, or the area of surfaces alone. Checks the
+domain first.
 """
 function measure(domain::Domain)
     inside = Ref(0.0)
@@ -616,10 +660,11 @@ end
 """
     distances(domain, x; tag = 0) -> Vector{Float64}
 
-Evaluates the distances from points, the columns of `x`, to the boundary of the domain, or to the
-curves, surfaces and nodes with a tag. They are exact for segments and triangles, and within 1e-7 of
-the domain's size for arcs and curves by callback. Make one query before querying from inside a
-callback, as a spacing callback may.
+Evaluates the distances of points, the columns of `x`, from the boundary of the domain, or from the
+curves, surfaces or nodes with a tag. They are exact for segments and triangles, and within 1e-7 of
+the size of the domain for arcs and parametric curves. The first query after a change of the domain
+builds a search tree. If a callback queries distances, query one before the run. Throws
+`:error_argument` if nothing has the tag.
 """
 function distances(domain::Domain, x::AbstractMatrix{<:Real}; tag::Integer = 0)
     d = zeros(size(x, 2))
@@ -632,9 +677,9 @@ end
     shape_spacing(domain, x; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                   growth = 0) -> Vector{Float64}
 
-Evaluates the spacing that [`set_spacing_from_shape!`](@ref) would set, without its bounds, at
-points, the columns of `x`, for use in a spacing function. Make one query before querying from
-inside a callback.
+Evaluates the spacing that [`set_spacing_from_shape!`](@ref) sets, without its bounds, at points,
+the columns of `x`, for use in a spacing function. The first query computes what the shape requires.
+If a callback queries this spacing, query it once before the run.
 """
 function shape_spacing(domain::Domain, x::AbstractMatrix{<:Real}; nodes_per_turn::Real = 0,
                        nodes_across::Real = 0, nodes_per_edge::Real = 0, growth::Real = 0)
@@ -655,9 +700,9 @@ end
 """
     outline(domain) -> (segments, tags)
 
-Returns straight segments that approximate the curves of a domain in the plane or on a sphere, finely
-sampled, for pictures: `segments[:, 1, k]` and `segments[:, 2, k]` are the ends of the k-th. With Plots.jl and
-Julia 1.9 or later, `plot(domain)` draws them.
+Returns straight segments that approximate the curves of a domain in the plane or on a sphere, for
+pictures. `segments[:, 1, k]` and `segments[:, 2, k]` are the ends of segment k, and `tags[k]` is
+the tag of its curve. With Plots.jl and Julia 1.9 or later, `plot(domain)` draws them.
 """
 function outline(domain::Domain)
     count = Ref{Int64}(0)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Values of a solver at nodes: a vector with an entry for each node, or an array whose last index is
-# that of the node. The other indices count components.
+# Fields: values at nodes. A field is a vector with an entry for each node, or an array whose last
+# index is that of the node; the other indices are those of components.
 
 components_of(values::AbstractArray) = prod(size(values)[1:(end - 1)])
 places_of(values::AbstractArray) = size(values, ndims(values))
 
-# Returns the values without gaps in memory, as the library reads them.
+# Returns a contiguous array of Float64, which is a copy if necessary.
 dense(values::Array{Float64}) = values
 dense(values::AbstractArray) = Array{Float64}(values)
 
@@ -13,8 +13,9 @@ dense(values::AbstractArray) = Array{Float64}(values)
     update_ghosts!(placement, values) -> values
 
 Updates the values at ghosts from their owners. `values` is a vector of `Float64` with an entry for
-each node of this rank, followed by one for each ghost, or an array with that last index. On one
-process there are no ghosts, and the call has no effect. Collective.
+each node of this rank, followed by one for each ghost, or an array whose last index is that of the
+node or ghost. It is changed in place. On one process there are no ghosts, and the call has no
+effect. Throws `:error_argument` for a wrong number of entries. Collective.
 
     u = zeros(node_count(placement) + ghost_count(placement))
     ...
@@ -31,11 +32,12 @@ end
     begin_update_ghosts(placement, values)
     end_update_ghosts!(placement, values) -> values
 
-The two halves of [`update_ghosts!`](@ref), for a solver that computes while messages travel. The
-first starts sending the values of this rank's nodes; `values` may be changed after it returns. The
-second waits for the received values and fills the ghosts. A placement has at most one update in
-progress; other calls are allowed in between. The first is collective; the second is local, and does
-not wait for other ranks to end theirs.
+Begin and end an update of ghosts, for a solver that computes while messages are being sent.
+`begin_update_ghosts` copies the values of the nodes of this rank and starts sending them; `values`
+may be changed afterwards. `end_update_ghosts!` waits for the received values and fills the ghosts.
+A placement has at most one update in progress; other calls are allowed in between.
+`begin_update_ghosts` is collective. `end_update_ghosts!` is local and does not wait for other ranks
+to end their updates. Both throw `:error_state` in the wrong order.
 
     begin_update_ghosts(placement, u)
     multiply!(q, inner_rows, u)
@@ -62,11 +64,11 @@ end
 """
     sum_over_nodes(placement, values)
 
-Sums a field over the nodes of all ranks: returns a number for a vector, and for an array with more
-than one index an array of the sums of each component. It is the exact sum, rounded once, so it has
-the same bits for any number of ranks and threads. NaN where a value is NaN or where there are
-infinities of both signs; otherwise an infinity where a value is, or where the sum is beyond the
-largest number. Entries after those of this rank's nodes, for its ghosts, are ignored. Collective.
+Sums a field over the nodes of all ranks. Returns a number for a vector, and otherwise an array with
+the sum of each component. The sum is exact and rounded once, so its bits do not depend on the
+number of ranks and threads. It is NaN if a value is NaN or if there are infinities of both signs.
+It is infinite if a value is, or if the sum exceeds the largest number. Entries for ghosts are
+ignored. Collective.
 """
 function sum_over_nodes(placement::Placement, values::AbstractArray{<:Real})
     sums = zeros(size(values)[1:(end - 1)])
@@ -78,13 +80,14 @@ end
 """
     dot_over_nodes(placement, x, y)
 
-Computes the dot product of two fields over the nodes of all ranks, for each component: the sum of
-the exact products, rounded once, otherwise as [`sum_over_nodes`](@ref). No product overflows or
-underflows; one of an infinity and 0 is NaN. Collective.
+Computes the dot product of two fields over the nodes of all ranks, for each component. It is the
+sum of the exact products, rounded once, with the properties of [`sum_over_nodes`](@ref). Products
+do not overflow or underflow; the product of an infinity and 0 is NaN. Both fields must have the
+same size, or the call throws `:error_argument`. Collective.
 """
 function dot_over_nodes(placement::Placement, x::AbstractArray{<:Real}, y::AbstractArray{<:Real})
     products = zeros(size(x)[1:(end - 1)])
-    # Fields of different shapes get the length -1, which is an error on all ranks.
+    # For different sizes the invalid length -1 makes the library report an error on all ranks.
     n = components_of(x) == components_of(y) ? min(places_of(x), places_of(y)) : -1
     check(placement, LibPNPBS.pnpbs_placement_dot(live(placement), n, components_of(x), dense(x),
                                                   dense(y), products))

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds the shared library and its functions by name. The search happens when it is first needed, so
-# that a precompiled image never contains a path.
+# Search for the shared library, and lookup of its functions. The search runs when a function is
+# first needed, so a precompiled image never contains a path.
 using Libdl
 
 const PACKAGE = Base.UUID("c5532396-b5c1-415c-b7a9-3fa63870194d")
-# The version of the interface that this package is written for. While the major version is 0, a new
-# minor version may change it.
+# The interface version that this package requires. While the major version is 0, a new minor
+# version may change the interface.
 const INTERFACE = (0, 2)
 const opened = Ref{Ptr{Cvoid}}(C_NULL)
 const opened_path = Ref("")
 
-# Returns the path in LocalPreferences.toml, which exists from Julia 1.6 on.
+# Returns the preference in LocalPreferences.toml, which exists from Julia 1.6 on.
 function preferred_library()
     isdefined(Base, :get_preferences) || return nothing
     return get(Base.get_preferences(PACKAGE), "library", nothing)
 end
 
-# Returns the library of an installed package, which is in <prefix>/share/pnpbs/julia/PNPBS.jl,
-# while the library is in <prefix>/lib.
+# Returns the library that was installed with the package. The package lies in
+# <prefix>/share/pnpbs/julia/PNPBS.jl, the library in <prefix>/lib.
 function installed_beside()
     prefix = normpath(@__DIR__, "..", "..", "..", "..", "..")
     folders = [joinpath(prefix, "lib"), joinpath(prefix, "lib64"),
@@ -27,9 +27,9 @@ function installed_beside()
     return found === nothing ? nothing : best_level(names[found], processor_flags())
 end
 
-# If glibc's loader searches for a library, it takes the best one in folders for the levels of
-# x86-64 processors. It does not do this if it gets a path. The features of each level are those of
-# the x86-64 psABI by the names that Linux uses. The best level is first.
+# When the loader of glibc searches its folders for a library, it prefers subfolders for newer
+# x86-64 processors. It does not do so for a path, so this file repeats the selection. The features
+# of the levels are those of the x86-64 psABI, in Linux's names, with the best level first.
 const V2_FLAGS = ["cx16", "lahf_lm", "popcnt", "pni", "sse4_1", "sse4_2", "ssse3"]
 const V3_FLAGS = [V2_FLAGS; ["abm", "avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "xsave"]]
 const V4_FLAGS = [V3_FLAGS; ["avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl"]]
@@ -44,15 +44,14 @@ function processor_flags(cpuinfo = "/proc/cpuinfo")
     return String[]
 end
 
-# Returns the folder of the library for all processors. The libraries for other levels are in
-# subfolders of it.
+# Returns the folder of the library for all processors. The other libraries of PNPBS are in the same
+# folder.
 function common_folder(path)
     folder = dirname(path)
     return basename(dirname(folder)) == "glibc-hwcaps" ? dirname(dirname(folder)) : folder
 end
 
-# Returns the best library in the subfolders that a processor with these features can run, or this
-# one.
+# Returns the best library next to `path` that a processor with these features can run, or `path`.
 function best_level(path, flags)
     for (level, needed) in LEVELS
         other = joinpath(dirname(path), "glibc-hwcaps", level, "libpnpbs.so.0")
@@ -64,21 +63,21 @@ end
 """
     LibPNPBS.library_path() -> String
 
-Returns the path or name of the library that is or would be opened: the environment variable
-`PNPBS_LIBRARY`, or the preference `library`, or the library that this package was installed with
-(the one for this processor, if there are several), or the one that the system finds as `libpnpbs`.
+Returns the path or name of the library that is or will be opened. This is the value of the
+environment variable `PNPBS_LIBRARY` if it is set, or that of the preference `library`. Otherwise it
+is the library that was installed with this package, in the variant for this processor if there are
+several, or the library that the system finds as `libpnpbs`. Local.
 """
 function library_path()
     isempty(opened_path[]) || return opened_path[]
     for candidate in (get(ENV, "PNPBS_LIBRARY", nothing), preferred_library(), installed_beside())
         (candidate === nothing || isempty(candidate)) || return String(candidate)
     end
-    # This is the name that programs are linked with. The name without a number exists only in
-    # installations for development.
+    # The name without a number exists only with development files, so the linked name is used.
     return Sys.islinux() ? "libpnpbs.so.0" : "libpnpbs"
 end
 
-# Throws if the library has another interface than this package, which would lead to a crash.
+# Throws for another interface version, with which calls could crash.
 function require_interface(major, minor, path)
     (major, minor) == INTERFACE ||
         error("$path is PNPBS $major.$minor, but this package is for $(join(INTERFACE, '.')); ",
@@ -93,9 +92,10 @@ function require_version(library, path)
     return require_interface(major[], minor[], path)
 end
 
-# GCC's OpenMP reads the wait policy of threads when it is loaded. By default threads spin for a
-# millisecond, so that a run takes many times as long on a busy machine. The environment that child
-# processes inherit does not change.
+# Runs `work` with a setting that makes waiting OpenMP threads of GCC sleep early, unless the
+# environment defines how they wait. GCC's OpenMP reads the setting when it is loaded. By default
+# threads spin for a millisecond, which slows a run down several times if other programs use the
+# cores. The environment is restored afterwards, so child processes do not inherit the setting.
 function with_threads_that_sleep(work)
     any(name -> haskey(ENV, name), ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")) && return work()
     return withenv(work, "GOMP_SPINCOUNT" => "1000")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The elements of pictures in the plane, for any plotting package.
+# Data for pictures of domains and placements in the plane, for any plotting package.
 
-# Returns segments (2, 2, n) as one path for x and one for y, with a gap after each segment.
+# Converts segments (2, 2, n) to x and y of one path that is interrupted by NaN after each segment.
 function broken_path(segments)
     coordinate(c) = vec([segments[c, :, :]; fill(NaN, 1, size(segments, 3))])
     return coordinate(1), coordinate(2)
 end
 
-# Returns the pairs in symmetric lists, each once, as (2, n). Ghosts follow all nodes and have no
+# Returns the pairs in symmetric lists, each once, (2, n). Ghosts have the highest indices and no
 # list.
 function pairs_in(lists)
     pairs = [k for (i, list) in enumerate(lists) for j in list if i < j for k in (i, j)]
@@ -21,7 +21,7 @@ function lists_to_draw(placement, edges)
     throw(ArgumentError("edges is $(repr(edges)); :triangles, :adjacency or :none was expected"))
 end
 
-# Returns this rank's nodes, and the path along its edges.
+# Returns the nodes of this rank, and the path of the edges between them. Collective.
 function picture(placement::Placement, edges)
     ndims(placement) == 2 || throw(ArgumentError("pictures are of placements in the plane"))
     points = nodes(placement).points

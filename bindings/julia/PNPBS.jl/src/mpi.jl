@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Contexts on communicators of MPI.jl. Nothing here needs MPI.jl to be loaded. If Julia has
-# extensions (1.9 and later), one passes the module MPI. In earlier versions it is looked up when
-# needed.
+# Contexts on communicators of MPI.jl. This file does not load MPI.jl. From Julia 1.9 on, an
+# extension passes its module; with earlier versions the module is looked up when it is needed.
 
 const MPI_PACKAGE = Base.PkgId(Base.UUID("da04e1cc-30fd-572f-bb4f-1f8673147195"), "MPI")
 
-# Returns the Fortran handle of a communicator. MPI.jl 0.20.19 and later have this conversion. In
-# earlier ones a C int is the Fortran handle itself (MPICH). MPI converts other values (a pointer in
-# Open MPI, an unsigned integer in MPItrampoline). All of them are passed like integers of a
-# pointer's size.
+# Returns the Fortran handle of a communicator. MPI.jl 0.20.19 and later have the conversion. For
+# earlier versions, a C int is the Fortran handle itself (MPICH). Anything else, such as a pointer
+# in Open MPI or an unsigned integer in MPItrampoline, is converted by the MPI library; all of them
+# are passed as integers of the size of a pointer.
 function fortran_handle(MPI::Module, value)
     api = isdefined(MPI, :API) ? MPI.API : MPI
     isdefined(api, :MPI_Comm_c2f) && return api.MPI_Comm_c2f(value)
@@ -21,7 +20,7 @@ function converted_by_library(library, value)
     return ccall(convert_handle, Cint, (UInt,), UInt(value))
 end
 
-# The open contexts that MPI.Finalize must end, in the order of their creation, which is the same on
+# Open contexts that MPI.Finalize must close, in the order of their creation, which is the same on
 # all ranks.
 const contexts_of_mpi = Context[]
 
@@ -40,7 +39,8 @@ function close_with_mpi(MPI::Module, context)
     return nothing
 end
 
-# The value of an MPI.Comm is valid only while MPI runs. Otherwise the library reports the error.
+# Creates a context on a communicator of MPI.jl. The communicator is valid only while MPI runs.
+# Otherwise the handle is 0, and the library reports the error.
 function context_on(MPI::Module, comm; options...)
     running = MPI.Initialized() && !MPI.Finalized()
     handle = running ? fortran_handle(MPI, comm.val) : Int32(0)
@@ -49,11 +49,10 @@ function context_on(MPI::Module, comm; options...)
     return set!(context; options...)
 end
 
-# This method is for Julia before 1.9, and for a later one that has not loaded the extension, whose
-# method is more specific.
+# Serves Julia before 1.9, and later versions without the extension, whose method is more specific.
 Context(comm; options...) = context_on(mpi_of(comm), comm; options...)
 
-# Returns MPI.jl if it is loaded and `comm` belongs to it.
+# Returns the module MPI if it is loaded and `comm` is one of its communicators, or throws.
 function mpi_of(comm)
     MPI = get(Base.loaded_modules, MPI_PACKAGE, nothing)
     MPI !== nothing && comm isa MPI.Comm || throw(ArgumentError(

@@ -1,34 +1,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Particles in plain arrays, and the library's object, which writes files.
+# Particles as plain arrays, with a handle of the library through which files are written.
 
 """
     Particles(placement, body)
 
-Makes particles that fill `body`, a [`Domain`](@ref), of the current nodes of a placement in what
-[`add_offset!`](@ref) makes of the body: each stands for a piece of matter of about d^2, or d^3 in
-space. Where two nodes are closer than 0.5 times the mean of their d, as at creases and in thin
-places, one of them is left out; then pairs closer than 0.85, or 0.9 in the plane, are pushed apart,
-by at most 0.3 d; and of pairs still closer than 0.611, or 0.651 in the plane, one is left out. All
-others stay where they are. The volumes add up to the body's. Any number of ranks and threads gives
-the same bits. The particles are a copy: nodes may move afterwards, and the placement may be closed.
-Collective. A `:error_domain` says that a node is not strictly inside of the body, or that the nodes
-do not fill it.
+Creates particles that fill `body`, a [`Domain`](@ref), from the current nodes of a placement. These
+nodes lie in the offset that [`add_offset!`](@ref) makes of the body. Each particle represents a
+piece of matter of about d^2, or d^3 in space. Collective.
 
-Of this rank, in the order of their ids:
+Where two nodes are closer than 0.5 times the mean of their d, as at creases and in thin places, one
+of them is left out. Then pairs closer than 0.85 times that mean in space, or 0.9 times in the
+plane, are pushed apart by at most 0.3 d. Of pairs that are still closer than 0.611 in space, or
+0.651 in the plane, one is left out. All others keep their positions. The volumes add up to that of
+the body. The bits do not depend on the number of ranks and threads. The particles are a copy: nodes
+may move afterwards, and the placement may be closed.
 
-- `points`: `(dim, n)`.
-- `volumes`: areas in the plane.
-- `spacing`: d of the bubbles that they were.
-- `ids`: of the nodes that they were; there may be gaps.
-- `tags`: of these nodes: the outermost ones have that of the offset, all others 0.
+Throws `:error_domain` if the body is invalid, if a node is not strictly inside the body, or if the
+nodes do not fill it, and `:error_state` without nodes.
 
-Of all ranks:
+Fields for the particles of this rank, in the order of their ids:
 
-- `count`: how many there are.
-- `left_out`: nodes left out because others are too close.
-- `moved`: particles that were pushed away from where their nodes are.
-- `closest`: the least distance of two over the mean of their d; infinity if no two are closer than
-  that mean.
+- `points`: positions, `(dim, n)`.
+- `volumes`: volumes, or areas in the plane.
+- `spacing`: d of the nodes from which the particles were made.
+- `ids`: ids of these nodes; some numbers may be missing.
+- `tags`: tags of these nodes: the outermost ones have that of the offset, all others 0.
+
+Fields over all ranks:
+
+- `count`: number of particles.
+- `left_out`: number of nodes left out because others are too close.
+- `moved`: number of particles that were pushed away from the positions of their nodes.
+- `closest`: the least distance of two particles over the mean of their d; infinity if no two are
+  closer than that mean.
 
 For example
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions of one point, for a library that passes batches of points. The type of the function is
-# unknown once per batch only, and the loop over the points is compiled for the function.
+# Adapters for functions of one point, because the library evaluates functions at batches of points.
+# The type of the function is known inside the adapter, so the loop over the points is compiled for
+# it and only the call for the whole batch is dynamic.
 
 struct PerPoint{F}
     f::F
-    what::String  # name of the function for messages
+    what::String  # kind of the function, for messages
 end
 
 function (one::PerPoint)(x::Matrix{Float64})
@@ -12,7 +13,7 @@ function (one::PerPoint)(x::Matrix{Float64})
     return [as_number(one.f(x[1, k], x[2, k], x[3, k]), one.what) for k in axes(x, 2)]
 end
 
-# Evaluates curves: from parameters to points in the plane.
+# Evaluates a curve: converts parameters to points in the plane.
 function (one::PerPoint)(t::Vector{Float64})
     points = zeros(2, length(t))
     for k in eachindex(t)

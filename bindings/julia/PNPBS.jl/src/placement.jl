@@ -3,20 +3,21 @@
 """
     Placement(domain::Domain; options...)
 
-Creates a placement of nodes in a domain, on the domain's context. Options are as in [`set!`](@ref);
-the others are those of the context. Set a spacing ([`set_spacing!`](@ref)), then [`run!`](@ref).
+Creates a placement of nodes in a domain, on the context of the domain. Set a spacing with
+[`set_spacing!`](@ref), then call [`run!`](@ref). `options` are those of [`set!`](@ref); other
+options have the values of the context. The domain is read when the placement is initialised.
 Collective.
 
-With Plots.jl and Julia 1.9 or later, `plot(placement)` draws this rank's nodes, of a placement in
-the plane, and the edges between them: those of the triangles, with `edges = :adjacency` the pairs
-of the adjacency lists, or with `edges = :none` none. Collective.
+With Plots.jl and Julia 1.9 or later, `plot(placement)` draws the nodes of this rank of a placement
+in the plane, and edges between them: those of the triangles, the pairs of the adjacency lists with
+`edges = :adjacency`, or none with `edges = :none`. Drawing is collective.
 """
 mutable struct Placement
     handle::LibPNPBS.pnpbs_placement
     context::Context
     domain::Domain
-    # These are kept alive because the library holds their addresses. The current nodes refer to the
-    # spacing that they were placed with, so a replaced spacing is needed until the next run.
+    # The library holds the addresses of callbacks, so they must live. The current nodes refer to
+    # the spacing with which they were placed, so a replaced one is needed until the next run.
     spacing::Union{Callback,Nothing}
     spacings_before::Vector{Callback}
     monitor::Callback
@@ -56,7 +57,8 @@ end
 """
     sphere_radius(placement)
 
-Returns the radius of the sphere that the nodes lie on; 0 if the domain is not on one. Local.
+Returns the radius of the sphere on which the nodes lie, or 0 if the domain is not on a sphere.
+Local.
 """
 function sphere_radius(placement::Placement)
     radius = Ref{Float64}(0)
@@ -92,22 +94,26 @@ set_placement_option(handle, key, value) =
     set_spacing!(placement, values::AbstractArray; origin, step)
     set_spacing!(placement, d::AbstractVector)
 
-Sets the node spacing d(x), the requested distance between neighbouring nodes near x. On a placement
-that has nodes it replaces the spacing: the nodes are kept, and the next run starts from them.
-Collective.
+Sets the spacing d(x), the requested distance between neighbouring nodes near x, and returns the
+placement. If the placement has nodes, it keeps them, and the next run starts from them. Arrays are
+copied. Collective.
 
-- A number: constant spacing.
-- A function: `f(x)` gets points as the columns of a `(dim, n)` matrix and returns a vector of n
-  values. It must always return the same value for the same point. It is called with different
-  points on different ranks, so it must do nothing collective. An exception that it throws is
-  rethrown by the call in progress. With `per_point` it is called for each point by itself, as `f(x,
-  y)` or, in space, `f(x, y, z)`, and returns a number.
-- A matrix, in space an array of three dimensions: values on a rectangular grid whose first point is
-  `origin`, with distances `step`; the first index goes along x. Linear between grid points,
-  constant beyond the grid's edge. On a sphere a matrix: longitude and latitude in degrees; columns
-  all around are joined.
-- A vector: values at the nodes of this rank, in the order of [`nodes`](@ref); linear on each
-  triangle or tetrahedron of their triangulation.
+- A number is a constant spacing.
+- A function `f(x)` receives points as the columns of a `(dim, n)` matrix and returns a vector of n
+  values. It must be pure. Ranks call it with different points, so it must do nothing collective.
+  The placement keeps it. An exception that it throws is thrown by the call in progress. With
+  `per_point` it is called as `f(x, y)`, or in space `f(x, y, z)`, for each point and returns a
+  number.
+- A matrix, in space an array of three dimensions, has the values on a rectangular grid. `origin` is
+  the first grid point, and `step` the distance of grid points in each direction; the first index
+  runs along x. The spacing is linear between grid points and constant beyond the edge. On a sphere
+  the grid is a matrix over longitude and latitude in degrees; columns all around the sphere are
+  joined.
+- A vector has the values at the nodes of this rank, in the order of [`nodes`](@ref). The spacing is
+  linear on each triangle or tetrahedron of their triangulation.
+
+Throws `:error_spacing` for values that are zero, negative or not finite; those of a function throw
+in [`initialise!`](@ref) or [`run!`](@ref).
 
 For example
 
@@ -133,7 +139,7 @@ function set_spacing!(f, placement::Placement; per_point::Bool = false)
     return keep_spacing!(placement, callback)
 end
 
-# Returns the dimension of the triangles or tetrahedra: 2 for triangles, also on a sphere.
+# Returns the dimension of elements of a background mesh: 2 for triangles, also on a sphere.
 extent_of_elements(placement) = sphere_radius(placement) > 0 ? 2 : ndims(placement)
 
 function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origin, step)
@@ -149,7 +155,7 @@ function set_spacing!(placement::Placement, values::AbstractArray{<:Real}; origi
 end
 
 function set_spacing!(placement::Placement, d::AbstractVector{<:Real})
-    # The library checks the length, as it reports an error to all ranks.
+    # The library checks the length, because it reports errors on all ranks.
     check(placement,
           LibPNPBS.pnpbs_placement_set_spacing_at_nodes(live(placement), length(d),
                                                         convert(Vector{Float64}, d)))
@@ -159,10 +165,12 @@ end
 """
     set_spacing_mesh!(placement, points, d, corners)
 
-Sets the spacing to values `d` at the nodes of a background mesh, the columns of `points`. It is
-linear on each element, and beyond the mesh equal to the value at the nearest point of the mesh. The
-columns of `corners` are triangles, in space tetrahedra, by node numbers from 1. Collective; every
-rank passes the same arrays, and holds a copy.
+Sets the spacing to values `d` at the nodes of a background mesh, the columns of `points`, and
+returns the placement. It is linear on each element. Beyond the mesh it is equal to the value at the
+nearest point of the mesh. The columns of `corners` are triangles, in space tetrahedra, by indices
+of nodes from 1. Every rank passes the same arrays and stores a copy. Throws `:error_spacing` for
+values that are zero, negative or not finite, and `:error_argument` for an index out of range, a
+flat element, or arrays that differ between ranks. Collective.
 """
 function set_spacing_mesh!(placement::Placement, points::AbstractMatrix{<:Real},
                            d::AbstractVector{<:Real}, corners::AbstractMatrix{<:Integer})
@@ -179,10 +187,12 @@ end
 """
     set_spacing_points!(placement, points, d)
 
-Sets the spacing to values `d` at scattered points, the columns of `points`. It equals the given
-value at each point and elsewhere a weighted mean of the values of the 8 (in space 16) nearest points,
-of which those behind others count less or not at all; on a sphere, with ways along it.
-Collective; every rank passes the same arrays, and holds a copy.
+Sets the spacing to values `d` at scattered points, the columns of `points`, and returns the
+placement. It equals the given value at each point. Elsewhere it is a weighted mean of the values of
+the 8 (in space 16) nearest points, in which points behind others count less or not at all. On a
+sphere distances are along it. Every rank passes the same arrays and stores a copy. Throws
+`:error_spacing` for values that are zero, negative or not finite, and for coincident points with
+different values. Collective.
 """
 function set_spacing_points!(placement::Placement, points::AbstractMatrix{<:Real},
                              d::AbstractVector{<:Real})
@@ -197,13 +207,16 @@ end
 """
     set_spacing_file!(placement, path; field = "")
 
-Sets the spacing to values at points from a file: VTK's unstructured grid (.vtu), Gmsh's mesh with
-values at nodes (.msh), or a table with columns x, y, (z) and others (.csv). Triangles and
-quadrangles, in space tetrahedra, form a mesh as in [`set_spacing_mesh!`](@ref); without any, the
-points are used as in [`set_spacing_points!`](@ref). In the plane z is ignored; on a sphere elements
-are as in the plane. `field` is the name
-of the values in the file; the default is the only ones, or those called "spacing". Collective;
-every rank reads the file.
+Sets the spacing to values at points from a file, and returns the placement. Every rank reads the
+file. Collective.
+
+- `path`: an unstructured grid of VTK (.vtu), a mesh of Gmsh with values at nodes (.msh), or a table
+  with columns x, y, (z) and others (.csv). Triangles and quadrangles, in space tetrahedra, form a
+  mesh as in [`set_spacing_mesh!`](@ref); on a sphere elements are those of the plane. Without
+  elements the points are used as in [`set_spacing_points!`](@ref). In the plane z is ignored.
+- `field`: the name of the values in the file. By default it is the only name, or "spacing".
+
+Throws `:error_file` for a file that cannot be read, and for a missing field.
 """
 function set_spacing_file!(placement::Placement, path::AbstractString; field::AbstractString = "")
     check(placement, LibPNPBS.pnpbs_placement_set_spacing_file(live(placement), path, field))
@@ -214,15 +227,20 @@ end
     set_spacing_from_shape!(placement; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                             growth = 0, min_spacing = 0, max_spacing = 0)
 
-Sets the spacing from the current shape of the domain: the minimum of what its curves and surfaces
-require, each value growing with the distance from them. Zero arguments are not used. Collective.
+Sets the spacing from the current shape of the domain, and returns the placement. It is the minimum
+of the values that curves and surfaces require, each growing with the distance from them.
+Collective.
 
-- `nodes_per_turn`: by curvature, nodes on a full circle of the radius of curvature.
-- `nodes_across`: by width, nodes across the diameter of the largest ball that touches the boundary
-  there and meets nothing ahead.
-- `nodes_per_edge`: by the input, nodes along its segments and the mean edge of its triangles.
-- `growth`: of d per unit of distance; 0 is 0.15.
-- `min_spacing`, `max_spacing`: bounds of d.
+- `nodes_per_turn`: by curvature: number of nodes on a full circle of the radius of curvature.
+- `nodes_across`: by width: number of nodes across the diameter of the largest ball that touches the
+  boundary at a point and meets no other part of it ahead.
+- `nodes_per_edge`: by the input: number of nodes along a segment, or along the mean edge of a
+  triangle.
+- `growth`: growth of d per distance; 0 stands for 0.15.
+- `min_spacing`, `max_spacing`: bounds of d; 0 stands for no bound.
+
+The first three are not used if they are 0. Throws `:error_domain` if the domain is invalid, and
+`:error_argument` for negative numbers.
 """
 function set_spacing_from_shape!(placement::Placement; nodes_per_turn::Real = 0,
                                  nodes_across::Real = 0, nodes_per_edge::Real = 0,
@@ -234,6 +252,7 @@ function set_spacing_from_shape!(placement::Placement; nodes_per_turn::Real = 0,
     return keep_spacing!(placement, nothing)
 end
 
+# Keeps the callback of the current spacing alive, and those of earlier ones until the next run.
 function keep_spacing!(placement, callback)
     placement.spacing === nothing || push!(placement.spacings_before, placement.spacing)
     placement.spacing = callback
@@ -244,10 +263,12 @@ end
     set_monitor!(f, placement)
     set_monitor!(placement, nothing)
 
-Calls `f(fraction, step, nodes, max_speed)` from time to time during a run. While the first nodes
-are laid, or the growth of the spacing is limited, `fraction` is 0 and each rank calls it by its own
-clock: do nothing collective then. When it returns `true`, the run ends early with valid nodes and
-the outcome `:stopped`. Any other value continues. The second form removes the monitor. Local.
+Sets a function `f(fraction, step, nodes, max_speed)` that is called from time to time during a run,
+and returns the placement. If it returns `true`, the run ends early with valid nodes and the outcome
+`:stopped`. Any other value continues the run. `fraction` is the completed part of the call in
+progress, from 0 to 1, and `max_speed` is in spacings per unit time. While the first nodes are laid,
+or the growth of the spacing is limited, `fraction` is 0 and each rank calls the monitor by its own
+clock, so it must do nothing collective then. The second form removes the monitor. Local.
 """
 function set_monitor!(f, placement::Placement)
     callback = Callback(f, placement.context)
@@ -260,7 +281,7 @@ function set_monitor!(f, placement::Placement)
     return placement
 end
 
-# The library keeps a monitor, because Ctrl-C takes effect in it.
+# The library always has a monitor, because Ctrl-C takes effect there.
 set_monitor!(placement::Placement, ::Nothing) = set_monitor!(keep_going, placement)
 
 keep_going(fraction, step, nodes, max_speed) = false
@@ -284,17 +305,19 @@ end
 """
     set_nodes!(placement, coordinates; ids = nothing)
 
-Sets inner nodes to start from instead of the initial fill: the columns of `coordinates`, on any
-ranks, with distinct global ids from 0 if `ids` are given. The library places the boundary nodes.
-Clears the current nodes. Collective.
+Sets inner nodes from which the simulation starts instead of the initial fill, and returns the
+placement. They are the columns of `coordinates`, anywhere in the domain, different ones on each
+rank. `ids` are distinct global ids from 0; without them the library chooses ids. The library places
+the boundary nodes. Points outside the domain or too close to its boundary are dropped. The current
+nodes are removed. Collective.
 """
 function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
                     ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
     points = as_points(coordinates, ndims(placement), "coordinates")
     n = size(points, 2)
     wrong = ids !== nothing && length(ids) != n
-    # If the number of ids is wrong on one rank, the library gets a number of -1. The other ranks,
-    # which would wait otherwise, then get an error too.
+    # If the number of ids is wrong on one rank, an invalid call informs the library and thus the
+    # other ranks, which otherwise block.
     given = ids === nothing ? C_NULL : convert(Vector{Int64}, ids)
     code = LibPNPBS.pnpbs_placement_set_nodes(live(placement), wrong ? -1 : n, points, given)
     wrong && require_length(ids, n, "ids")
@@ -303,8 +326,8 @@ function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
 end
 
 # ---------------------------------------------------------------- running -----------------------
-# Makes a call that takes long. Ctrl-C ends it with an InterruptException, and the placement can be
-# used afterwards.
+# Runs a call that may take long. Ctrl-C ends it with an InterruptException, after which the
+# placement remains usable.
 function compute(placement::Placement, call, arguments...)
     handle = live(placement)
     return check(placement, interruptible(() -> call(handle, arguments...), placement.context))
@@ -313,9 +336,9 @@ end
 """
     estimate(placement) -> (nodes, bytes, seconds)
 
-Estimates a run from scratch, from domain, spacing and options alone: the number of nodes on all
-ranks, mostly within a few percent, the memory of each process for the run alone, and roughly the
-time. No inner node is created, and the current nodes are unchanged. Collective.
+Estimates a run from scratch, from domain, spacing and options alone. Returns the number of nodes on
+all ranks, mostly within a few percent, the memory in bytes of each process for the run alone, and
+the approximate time in seconds. The current nodes do not change. Collective.
 """
 function estimate(placement::Placement)
     nodes, bytes, seconds = Ref{Int64}(0), Ref{Int64}(0), Ref(0.0)
@@ -326,8 +349,10 @@ end
 """
     initialise!(placement)
 
-Checks domain and spacing and lays the nodes that the simulation starts from. [`run!`](@ref) and
-[`step!`](@ref) do this if necessary. Collective.
+Checks domain and spacing, lays the nodes from which the simulation starts, and returns the
+placement. [`run!`](@ref) and [`step!`](@ref) do this if necessary. Throws `:error_domain` or
+`:error_spacing` for an invalid domain or spacing, and `:error_memory` if the nodes that d requires
+do not fit into memory. Collective.
 """
 function initialise!(placement::Placement)
     compute(placement, LibPNPBS.pnpbs_placement_initialise)
@@ -337,15 +362,21 @@ end
 """
     run!(placement) -> Symbol
 
-Runs the whole placement. A later run, for example after another spacing, starts from the current
-nodes. The outcome is `:ok`; `:not_converged` if the step limit was reached before the bubbles were
-at rest, which is no failure; `:spacing_missed` if in one of the bands of [`edge_bands`](@ref) with
-50 edges or more the mean differs from 1 by more than 0.1, whether or not the bubbles are at rest,
-with a warning that names the band; `:not_conforming` if the elements do not fill the domain, with a
-warning that says where; or `:stopped` by the monitor. In all cases the nodes are valid. Collective.
+Runs the whole placement: initialises if necessary, simulates until the bubbles are at rest or the
+option `steps` is reached, and finishes. A later run, for example with another spacing, starts from
+the current nodes. The nodes are valid for every outcome. Collective.
 
-Ctrl-C ends it, like every call that computes, within a second or two with an `InterruptException`;
-the nodes are then as if a monitor had stopped the run, which is what it returns on the other ranks.
+- `:ok`: the bubbles are at rest.
+- `:not_converged`: the step limit was reached before the bubbles were at rest. This is not an
+  error.
+- `:spacing_missed`: in a band of [`edge_bands`](@ref) with 50 edges or more, the mean differs from
+  1 by more than 0.1. A warning names the band.
+- `:not_conforming`: the elements do not fill the domain. A warning names the place.
+- `:stopped`: the monitor has stopped the run.
+
+Ctrl-C ends a run, like every call that computes, within a second or two with an
+`InterruptException`. The nodes are then those of a run that a monitor has stopped, and the other
+ranks return `:stopped`.
 """
 function run!(placement::Placement)
     outcome = compute(placement, LibPNPBS.pnpbs_placement_run)
@@ -356,8 +387,8 @@ end
 """
     step!(placement, n = 1) -> Symbol
 
-Advances the simulation by n steps. The outcome is as in [`run!`](@ref), `:ok` if the bubbles are at
-rest. Collective.
+Advances the simulation by n steps. Initialises if necessary. Returns `:ok` if the bubbles are at
+rest, `:not_converged` if they still move, or `:stopped`. Collective.
 """
 step!(placement::Placement, n::Integer = 1) =
     compute(placement, LibPNPBS.pnpbs_placement_step, n)
@@ -366,7 +397,8 @@ step!(placement::Placement, n::Integer = 1) =
     adjust_population!(placement) -> (inserted, deleted)
 
 Performs one population adjustment: deletes nodes where they are too dense and inserts nodes where
-they are too sparse. Collective.
+they are too sparse. Initialises if necessary. Returns the numbers of inserted and deleted nodes.
+Collective.
 """
 function adjust_population!(placement::Placement)
     inserted, deleted = Ref{Int64}(0), Ref{Int64}(0)
@@ -377,8 +409,9 @@ end
 """
     rebalance!(placement)
 
-Repartitions the work over the ranks. The nodes are unchanged; their owners change. A run does this
-by itself where it pays. Collective.
+Repartitions the work over the ranks and returns the placement. The nodes do not change, but their
+owners and the ghosts do. A run repartitions by itself if the imbalance exceeds the option
+`rebalance_above`. Collective.
 """
 function rebalance!(placement::Placement)
     compute(placement, LibPNPBS.pnpbs_placement_rebalance)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Copies of the results of a placement. Local indices count this rank's nodes from 1, then its
-# ghosts. Global ids are the library's, from 0, the same for any number of ranks.
+# Results of a placement, which are copied into arrays. Local indices count the nodes of this rank
+# from 1, followed by its ghosts. Global ids count from 0 and do not depend on the number of ranks.
 
-# Returns arrays for n results, which are earlier arrays where possible. Julia can change the length
-# of a vector, but not the size of a matrix.
+# Returns an array for n results, which is the given one if possible. Julia can change the length of
+# a vector, but not the size of a matrix.
 fitted!(values::Vector, n) = resize!(values, n)
 fitted!(values::Matrix{T}, rows, n) where {T} =
     size(values) == (rows, n) ? values : zeros(T, rows, n)
@@ -26,11 +26,11 @@ end
     nodes(placement) -> (points, ids, tags, spacing)
     nodes!(placement, placed) -> placed
 
-Returns the nodes of this rank in their local order: `points` is `(dim, n)`; `ids` are global;
-`tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node; `spacing` is d
-at the node. Local.
+Returns a copy of the nodes of this rank, in their local order. `points` is `(dim, n)`. `ids` are
+global. `tags` are 0 for inner nodes and otherwise that of the curve, surface or fixed node.
+`spacing` is d at the nodes. Local.
 
-`nodes!` reuses the arrays of an earlier result. Vectors are resized; a matrix of another size is
+`nodes!` reuses the arrays of an earlier result. Vectors are resized. A matrix of another size is
 replaced, so use the returned value. After an exception the content of the arrays is undefined.
 
     placed = nodes!(placement, placed)
@@ -51,7 +51,7 @@ end
 """
     ghost_count(placement) -> Int
 
-Returns the number of ghosts: nodes of other ranks that this rank sees near its own. Collective.
+Returns the number of ghosts: nodes of other ranks close to those of this rank. Collective.
 """
 function ghost_count(placement::Placement)
     n = Ref{Int64}(0)
@@ -63,9 +63,9 @@ end
     ghosts(placement) -> (points, ids, tags, spacing, owners)
     ghosts!(placement, others) -> others
 
-Returns the ghosts, by increasing id; `owners` are the ranks that own them. In lists, stars,
-triangles and tetrahedra ghost g has the local index `node_count(placement) + g`. `ghosts!` reuses
-the arrays of an earlier result, as [`nodes!`](@ref) does. Collective.
+Returns a copy of the ghosts in the order of their ids. `owners` are the ranks that own them. In
+lists, stars, triangles and tetrahedra, ghost g has the local index `node_count(placement) + g`.
+`ghosts!` reuses the arrays of an earlier result, as [`nodes!`](@ref) does. Collective.
 """
 ghosts, ghosts!
 
@@ -84,10 +84,10 @@ end
 """
     exchange_pattern(placement) -> (ranks, send, receive)
 
-Returns the pattern by which values at nodes reach their ghosts on other ranks: send the values at
-the nodes `send[k]` to `ranks[k]`, and store what it sends at `receive[k]`, in the same order.
-`send` and `receive` are [`CompressedRows`](@ref) of local indices; ranks count from 0, as in MPI.
-[`update_ghosts!`](@ref) does this for numbers. Valid until nodes move. Collective.
+Returns the halo exchange pattern: send the values at the nodes `send[k]` to `ranks[k]`, and store
+the values received from it at `receive[k]`, in the same order. `send` and `receive` are
+[`CompressedRows`](@ref) of local indices; ranks count from 0, as in MPI. [`update_ghosts!`](@ref)
+does this for numbers. The pattern is valid until nodes move. Collective.
 """
 function exchange_pattern(placement::Placement)
     neighbours, sends, receives = Ref{Int32}(0), Ref{Int64}(0), Ref{Int64}(0)
@@ -107,9 +107,9 @@ end
 """
     numbering(placement) -> (first, count, ghosts)
 
-Returns numbers that are contiguous per rank, from 0 over all ranks, as PETSc and hypre require:
-local node i has the number `first + i - 1`, and ghost g has `ghosts[g]`. Unlike the ids they depend
-on the ranks. Collective.
+Returns numbers that are contiguous per rank and start from 0 over all ranks, as PETSc and hypre
+require. Local node i has the number `first + i - 1`, and ghost g has `ghosts[g]`. Unlike ids they
+depend on the partition. Collective.
 """
 function numbering(placement::Placement)
     first, count = Ref{Int64}(0), Ref{Int64}(0)
@@ -123,9 +123,9 @@ end
     adjacency(placement) -> CompressedRows{Int64}
     adjacency!(placement, lists) -> lists
 
-Returns the adjacency lists: row i has the local indices of the nodes within `adjacency_radius` of
-node i, in the order of global ids. Pairs separated by a boundary are not neighbours. `adjacency!`
-reuses earlier lists. Collective.
+Returns the adjacency lists: row i has the local indices of all nodes within `adjacency_radius`
+times the mean spacing of the pair, in the order of global ids. Pairs separated by a boundary are
+not neighbours. `adjacency!` reuses earlier lists. Collective.
 """
 adjacency, adjacency!
 
@@ -145,12 +145,13 @@ end
     stars(placement) -> (neighbours, triangle)
     stars!(placement, around) -> around
 
-Returns each node's star in the constrained Delaunay triangulation of the domain. `neighbours[i]`
-has the local indices of node i's neighbours, counter-clockwise; `triangle[i][k]` is whether the
-node, its k-th neighbour and the next one around are a triangle of the domain, or whether a gap lies
-between them. In space the neighbours are all nodes that share a tetrahedron with node i, in no
-particular order, and `triangle[i][k]` is `false`. Both are [`CompressedRows`](@ref), with the same
-offsets. `stars!` reuses the arrays of an earlier result. Collective.
+Returns the star of each node in the constrained Delaunay triangulation of the domain.
+`neighbours[i]` has the local indices of the neighbours of node i, counter-clockwise.
+`triangle[i][k]` is `true` if the node, its k-th neighbour and the next one around form a triangle
+of the domain, and `false` if a gap outside the domain lies between them. In space the neighbours
+are all nodes that share a tetrahedron with node i, in no particular order, and `triangle[i][k]` is
+`false`. Both are [`CompressedRows`](@ref), with the same offsets. `stars!` reuses the arrays of an
+earlier result. Collective.
 """
 stars, stars!
 
@@ -173,9 +174,9 @@ end
     triangles(placement) -> Matrix{Int64}
     triangles!(placement, corners) -> corners
 
-Returns the triangles of a placement in the plane or on a sphere, `(3, n)` local indices,
-counter-clockwise, on a sphere as seen from outside, each once: a triangle belongs to the rank that
-owns its node with the lowest id; other corners may be ghosts. `triangles!` fills the matrix of an
+Returns the triangles of a placement in the plane or on a sphere, `(3, n)` local indices, each once,
+counter-clockwise, on a sphere as seen from outside. A triangle belongs to the rank that owns its
+node with the lowest id; its other corners may be ghosts. `triangles!` fills the matrix of an
 earlier result if it has the required size, and otherwise returns a new one. Collective.
 """
 triangles, triangles!
@@ -189,9 +190,9 @@ triangles!(placement::Placement, corners::Matrix{Int64}) =
     tetrahedra(placement) -> Matrix{Int64}
     tetrahedra!(placement, corners) -> corners
 
-Returns the tetrahedra of a placement in space, `(4, n)` local indices, each once: seen from the
-fourth corner, the first three turn counter-clockwise. A tetrahedron belongs to the rank that owns
-its node with the lowest id; other corners may be ghosts. `tetrahedra!` fills the matrix of an
+Returns the tetrahedra of a placement in space, `(4, n)` local indices, each once. Seen from the
+fourth corner, the first three are counter-clockwise. A tetrahedron belongs to the rank that owns
+its node with the lowest id; its other corners may be ghosts. `tetrahedra!` fills the matrix of an
 earlier result if it has the required size, and otherwise returns a new one. Collective.
 """
 tetrahedra, tetrahedra!
@@ -212,9 +213,9 @@ end
 """
     element_tags(placement) -> Vector{Int32}
 
-Returns the tag of each element: that of the region it lies in ([`add_region!`](@ref)), or 0 if the
-region has none. The order is that of [`triangles`](@ref), in space that of [`tetrahedra`](@ref). On
-surfaces alone it throws `:error_argument`. Collective.
+Returns the tag of each element, which is that of its region ([`add_region!`](@ref)), or 0 if the
+region has none. The order is that of [`triangles`](@ref), in space that of [`tetrahedra`](@ref).
+Throws `:error_argument` on surfaces alone. Collective.
 """
 function element_tags(placement::Placement)
     count = Ref{Int64}(0)
@@ -229,9 +230,9 @@ end
 """
     boundary_edges(placement) -> (edges, tags)
 
-Returns the edges between consecutive nodes on boundary and inner curves of a placement in the
-plane or on a sphere: `(2, n)` local indices, and the tags of the curves. An edge belongs to the rank
-that owns its first node. Local.
+Returns the edges between consecutive nodes on boundary and inner curves of a placement in the plane
+or on a sphere: `(2, n)` local indices, and the tags of the curves. An edge belongs to the rank that
+owns its first node; the other one may be a ghost. Local.
 """
 function boundary_edges(placement::Placement)
     edges, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_edges, 2)
@@ -241,9 +242,9 @@ end
 """
     normals(placement)
 
-Returns the surface normals at this rank's nodes, of a placement in space: `(3, n)`, the unit normal
-of the triangle that a node lies on, on feature edges and in corners the mean of the adjacent
-normals, and 0 for inner nodes. Local.
+Returns the surface normals at the nodes of this rank, `(3, n)`, for a placement in space. They are
+the unit normals of the triangles on which the nodes lie. On feature edges and in corners they are
+means of the adjacent normals. They are 0 at inner nodes. Local.
 """
 function normals(placement::Placement)
     n = node_count(placement)
@@ -255,10 +256,10 @@ end
 """
     boundary_triangles(placement) -> (triangles, tags)
 
-Returns the boundary triangles of a placement in space, the faces that belong to one tetrahedron
-only: `(3, n)` local indices, counter-clockwise as seen from outside, and the tags of the surfaces
-there. On surfaces alone, they are the triangles between the nodes. A triangle belongs to the rank
-that owns its node with the lowest id. Collective.
+Returns the boundary triangles of a placement in space, which are the faces of only one tetrahedron:
+`(3, n)` local indices, counter-clockwise as seen from outside, and the tags of the surfaces there.
+On surfaces alone, they are the triangles between the nodes. A triangle belongs to the rank that
+owns its node with the lowest id. Collective.
 """
 function boundary_triangles(placement::Placement)
     corners, tags = facets(placement, LibPNPBS.pnpbs_placement_get_boundary_triangles, 3)
@@ -276,12 +277,11 @@ end
 """
     check_results(placement) -> Symbol
 
-Checks the invariants of the results: unique ids, no two nodes that coincide, all inside or on the
-boundary; symmetric adjacency lists; stars that are one conforming triangulation of the domain, with
-every boundary edge and the right area, or in space a closed boundary and the right volume. The
-outcome is `:ok`, or `:not_conforming` where [`run!`](@ref) returns it, too. If anything else is
-wrong, a [`PNPBSError`](@ref) with status `:error_internal` says what, with ids and coordinates.
-Collective.
+Checks the invariants of the results. Ids are unique, no two nodes coincide, and all lie inside or
+on the boundary. Adjacency lists are symmetric. Stars form one conforming triangulation of the
+domain, with every boundary edge and the right area, or in space with a closed boundary and the
+right volume. Returns `:ok`, or `:not_conforming` where [`run!`](@ref) does, too. Throws
+`:error_internal` if anything else is wrong, with ids and coordinates. Collective.
 """
 check_results(placement::Placement) =
     check(placement, LibPNPBS.pnpbs_placement_check(live(placement)))
@@ -290,8 +290,9 @@ check_results(placement::Placement) =
 """
     statistic(placement, key)
 
-Returns a statistic by its name, such as `"nodes"`, `"hash"` or `:imbalance`: an `Int64`, a
-`Float64` or a `String`. [`statistic_table`](@ref) lists them. Collective.
+Returns a statistic by its name, such as `"nodes"`, `"hash"` or `:imbalance`, as an `Int64`, a
+`Float64` or a `String`. [`statistic_table`](@ref) lists them. Throws `:error_key` for an unknown
+name. Collective.
 """
 function statistic(placement::Placement, key)
     name = string(key)
@@ -318,7 +319,7 @@ end
 """
     statistics(placement) -> Dict{String,Any}
 
-Returns all statistics, by name. Collective.
+Returns all statistics by name. Collective.
 """
 statistics(placement::Placement) =
     Dict{String,Any}(row.name => statistic(placement, row.name, row.type)
@@ -328,12 +329,12 @@ statistics(placement::Placement) =
     edge_bands(placement) -> (d_from, d_to, edges, mean, deviation)
 
 Measures how well the edges of the triangles or tetrahedra follow the spacing, by bands of d. There
-are eight, equal in log d between the smallest and the largest d at the nodes, or one if the largest
-is less than 1.1 times the smallest. Bands without edges are left out. Returns for each band its
-lower and upper end, the number of edges, and the mean and standard deviation of their length over
-d, the mean of d at their ends. Edges between two boundary nodes are not counted, because the
-corners of the domain determine their positions. Includes all ranks, and is the same on each.
-Collective.
+are eight bands, equal in log d between the smallest and the largest d at the nodes, or one if the
+largest is less than 1.1 times the smallest. Bands without edges are left out. Returns for each band
+its lower and upper end, the number of edges, and the mean and standard deviation of their length
+over d, the mean of d at their ends. Edges between two boundary nodes are not counted, because the
+corners of the domain determine their positions. The result includes all ranks and is the same on
+each. Collective.
 """
 function edge_bands(placement::Placement)
     count = Ref{Int64}(0)
@@ -352,15 +353,20 @@ end
 
 Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the plane and
 on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres of the
-triangles around an inner node that is not fixed. `measure` is `:edge_ratio`, of each cell its
-shortest edge over its longest; `:area_ratio`, of each edge between two cells the area of the
-smaller cell over that of the larger; or `:dual_offset`, of each edge between two such nodes the
-distance of its middle from that of the Voronoi edge across it, over its length. Lengths and areas
-are along the sphere. Returns for each band its lower and upper end, the number of cells or edges,
-the mean, and the smallest ratio or largest offset. The limits of the bands are those of
-[`edge_bands`](@ref), and bands with neither a cell nor an edge are left out, so they are the same
-for all measures. A cell's d is that of its node, an edge's the mean of d at its ends. Includes all
-ranks, and is the same on each. Collective.
+triangles around an inner node that is not fixed. Collective.
+
+`measure` is one of these:
+
+- `:edge_ratio`: the shortest over the longest edge of each cell.
+- `:area_ratio`: the smaller over the larger area of the two cells at each edge.
+- `:dual_offset`: for each edge between two such nodes, the distance of its midpoint from that of
+  the Voronoi edge across it, over its length.
+
+On spheres, lengths and areas are along the sphere. Returns for each band its lower and upper end,
+the number of cells or edges, the mean, and the smallest ratio or largest offset. The ends of the
+bands are those of [`edge_bands`](@ref). Bands with neither a cell nor an edge are left out, so the
+bands are the same for all measures. The d of a cell is that of its node; the d of an edge is the
+mean at its ends. The result includes all ranks and is the same on each.
 """
 function cell_bands(placement::Placement, measure)
     count = Ref{Int64}(0)
@@ -377,8 +383,9 @@ end
 """
     warnings(placement) -> Vector{String}
 
-Returns warnings about domain and spacing (a feature smaller than the spacing, an unused vertex),
-and about nodes that do not follow the spacing, from the last run. Local.
+Returns the messages of warnings about domain and spacing, such as a feature smaller than the
+spacing or an unused vertex, and, from the last run, about nodes that do not follow the spacing.
+Local.
 """
 function warnings(placement::Placement)
     count = Ref{Int32}(0)
@@ -395,11 +402,14 @@ end
 """
     warning_data(placement) -> Vector{NamedTuple}
 
-Returns the same warnings as data, by which programs can decide, each with `code`, the name of the
-header's constant in lower case, such as `:feature_unresolved`; `text`; `count`, how many nodes,
-edges, triangles or points it is about (0: not known); `value`, a number that it is about, `NaN` if
-there is none; and `point`, the coordinates of the first point that it names, empty if there is
-none. Local.
+Returns the same warnings as data, for programs that act on them. Local.
+
+- `code`: the name of the constant in the header, in lower case, such as `:feature_unresolved`.
+- `text`: the message.
+- `count`: number of nodes, edges, triangles or points that the warning is about; 0 if it is not
+  known.
+- `value`: a number that the warning is about, or `NaN`.
+- `point`: the coordinates of the first point that the message names, or an empty vector.
 """
 warning_data(placement::Placement) =
     [data_of_warning(placement, i - 1, text) for (i, text) in enumerate(warnings(placement))]
@@ -418,13 +428,15 @@ end
     write_file(placement, path; elements = false) -> Symbol
     write_file(particles, path) -> Symbol
 
-Writes the nodes of all ranks, and the triangles or tetrahedra if `elements`, into one file. The
-extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
+Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` is true, into one file.
+The extension selects the format ([`format_table`](@ref)): .vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2,
 .node, .ele, .face, .gr3, .2dm, .ugrid, .csv, .peridigm, .lammps, .hdf5, .mpas, .graph. The file
-appears when it is complete. The
-outcome is `:ok`, or `:stopped` by the monitor, which keeps the old file. Files of
-[`Particles`](@ref) have their `volume` as well, in the formats that have fields, and no elements;
-.pvtu, .ele, .face, .gr3, .2dm, .ugrid, .mpas and .graph are a `:error_argument`. Collective.
+appears when it is complete. Returns `:ok`, or `:stopped` if the monitor has stopped the call, which
+keeps an existing file. Throws `:error_file` with the name of the file, and `:error_unsupported` if
+a format requires HDF5 and the library has none. Collective.
+
+Files of [`Particles`](@ref) also have their `volume`, in formats with fields, and no elements. The
+formats .pvtu, .ele, .face, .gr3, .2dm, .ugrid, .mpas and .graph throw `:error_argument` for them.
 """
 write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
@@ -433,9 +445,10 @@ write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
     write_files(placement, paths; formats = nothing, elements = false) -> Symbol
     write_files(particles, paths; formats = nothing) -> Symbol
 
-Writes several files, which appear together when all are complete. `formats` are names of formats,
-or `nothing` (also for single ones) for those of the extensions; `elements` is one for all or one
-for each. Collective.
+Writes several files, which appear together when all are complete, or not at all. `formats` are
+names of formats; `nothing`, for all or for single files, stands for the format of the extension.
+`elements` is one value for all files or one for each. Otherwise the function is like
+[`write_file`](@ref). Collective.
 """
 function write_files(placement::Placement, paths::AbstractVector{<:AbstractString};
                      formats::Union{Nothing,AbstractVector} = nothing, elements = false)
@@ -447,10 +460,10 @@ function write_files(placement::Placement, paths::AbstractVector{<:AbstractStrin
     return check(placement, code)
 end
 
-# Returns call(n, paths, formats) with the arguments converted for the library.
+# Returns call(n, paths, formats) with C strings of paths and formats.
 function with_file_names(call, paths, formats)
     formats === nothing || require_length(formats, length(paths), "formats")
-    # These strings are kept alive while the library reads through the pointers to them.
+    # The strings must live while the library reads them through pointers.
     own_paths = String.(paths)
     own_formats = formats === nothing ? nothing :
                   Union{String,Nothing}[f === nothing ? f : string(f) for f in formats]
@@ -464,14 +477,19 @@ end
     add_output_field(placement, name, values) -> Placement
     add_output_field(particles, name, values) -> Particles
 
-Adds a field of the caller to files written from now on: beside `id`, `tag` and `spacing` in .vtu,
-.pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`, and in .csv as a column `name`, or
-`name:0`, `name:1` and so on. `values` is a vector with an entry for each node of this rank, or an
-array with that last index, with up to 9 components; entries after them, for its ghosts, are
-ignored. The values are copied. They belong to the current nodes: once these have moved, writing
-fails until [`clear_output_fields`](@ref). All ranks add the same fields in the same order. A name
-has 1 to 63 letters, digits, `_` and `-`. Fields of [`Particles`](@ref), such as masses, are in the
-order of these; `volume` is there already, and a name can be used once. Local.
+Adds a field of the caller to files that are written afterwards. The field appears next to `id`,
+`tag` and `spacing` in .vtu, .pvtu, .vtkhdf and .xdmf, in .msh and .msh2 as `\$NodeData`, and in
+.csv as a column `name`, or `name:0`, `name:1` and so on. All ranks must add the same fields in the
+same order. Local.
+
+- `name`: 1 to 63 letters, digits, `_` and `-`.
+- `values`: a vector with an entry for each node of this rank, or an array whose last index is that
+  of the node, with up to 9 components. Entries for ghosts may follow and are ignored. The values
+  are copied. They belong to the current nodes: once these have moved, writing throws until
+  [`clear_output_fields`](@ref) is called.
+
+Fields of [`Particles`](@ref), such as masses, are in the order of the particles. `volume` exists
+already, and a name can be used once.
 """
 function add_output_field(placement::Placement, name::AbstractString,
                           values::AbstractArray{<:Real})
@@ -495,9 +513,10 @@ end
     write_checkpoint(placement, path) -> Placement
 
 Writes a file from which [`read_checkpoint!`](@ref) continues, in another process and on any number
-of ranks, bit for bit as if there had been no interruption. It is VTKHDF, which ParaView opens: name
-it `.vtkhdf`. It replaces an existing file once it is complete. May be called from a monitor, on all
-ranks, in its calls between two steps; in others it throws `:error_state`. Collective.
+of ranks, bit for bit as if there was no interruption. The format is VTKHDF, which ParaView opens,
+so name the file `.vtkhdf`. It replaces an existing file when it is complete. A monitor may call
+this function, on all ranks, in its calls between two steps; its other calls throw `:error_state`.
+Throws `:error_unsupported` without HDF5. Collective.
 """
 function write_checkpoint(placement::Placement, path::AbstractString)
     check(placement, LibPNPBS.pnpbs_placement_write_checkpoint(live(placement), path))
@@ -507,9 +526,10 @@ end
 """
     read_checkpoint!(placement, path) -> Placement
 
-Restores a placement from a checkpoint, with the domain, options and spacing of the first run
-(except a spacing given by values at nodes, which the file contains). The next `run!` or `step!`
-does what it would have done there. If it throws, the placement is unchanged. Collective.
+Restores a placement from a checkpoint. The placement must have the domain, options and spacing of
+the first run, except a spacing given by values at nodes, which the file contains. The next `run!`
+or `step!` does what it would have done where the checkpoint was written. If the call throws, the
+placement does not change. Collective.
 """
 function read_checkpoint!(placement::Placement, path::AbstractString)
     check(placement, LibPNPBS.pnpbs_placement_read_checkpoint(live(placement), path))

@@ -3,15 +3,14 @@
 """
     CompressedRows{T} <: AbstractVector
 
-Lists of different lengths in compressed rows: row `i` holds `entries[offsets[i]:offsets[i + 1] -
-1]`, 1-based. It is a vector of its rows, each of them a view without a copy, so that
+Rows of different lengths, stored one after another. Row `i` is
+`entries[offsets[i]:(offsets[i + 1] - 1)]`. An object is a vector of its rows, each of which is a
+view without a copy. `rows[i]` is one row, and `length(rows)` is their number. [`sparse`](@ref)
+makes a matrix of them. A loop over the neighbours of every node is
 
     for (i, neighbours) in enumerate(adjacency(placement))
         for j in neighbours ... end
     end
-
-visits the neighbours of every node; `rows[i]` is one row, `length(rows)` their number.
-[`sparse`](@ref) makes a matrix of them.
 """
 struct CompressedRows{T} <: AbstractVector{SubArray{T,1,Vector{T},Tuple{UnitRange{Int64}},true}}
     offsets::Vector{Int64}
@@ -26,7 +25,7 @@ function Base.getindex(rows::CompressedRows, i::Int)
     return view(rows.entries, rows.offsets[i]:(rows.offsets[i + 1] - 1))
 end
 
-# Converts the library's 0-based offsets and indices in place.
+# Converts offsets and indices of the library, which count from 0, in place.
 function rows_of_indices(offsets::Vector{Int64}, indices::Vector{Int64})
     return CompressedRows(offsets .+= 1, indices .+= 1)
 end

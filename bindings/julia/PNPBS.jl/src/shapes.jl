@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Geographic shapes: GeoJSON, shapefiles and other formats that GDAL reads, projected.
+# Geographic shapes and grids: GeoJSON, shapefiles and other formats that GDAL reads, projected.
 
 """
     Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing)
     Shapes(f, path; ...)
 
-One layer of a file that GDAL reads, such as GeoJSON, a shapefile or GeoPackage, projected by PROJ;
-all its functions are local. Available where PNPBS was built with GDAL. Polygons bound a domain,
-edges shared by neighbours and lines are inner curves, points are fixed nodes; `pnpbs_geo.h` has the
-details. `projection` is a code (`"EPSG:2180"`), a PROJ string, WKT, the path of a `.prj` file,
-`"auto"`, a projection chosen for the data, `"none"`, the coordinates of the file, or, for domains on
-a sphere ([`sphere_domain`](@ref)), `"sphere(LON,LAT)"` with the longitude and latitude of the point
-outside; by default longitude and latitude are projected as by `"auto"`, and other coordinates are
-kept. `unit` is `"m"` or `"km"`, `tag_field` the attribute that becomes the tag. A file that cannot
-be used is a [`PNPBSError`](@ref).
+Reads one layer of a file that GDAL reads, such as GeoJSON, a shapefile or GeoPackage, and projects
+it by PROJ. All functions of shapes are local. They exist only if PNPBS was built with GDAL.
+Polygons bound a domain, lines and edges that neighbours share become inner curves, and points
+become fixed nodes. `pnpbs_geo.h` has the details.
 
-`close` them when they are no longer needed; the second form calls `f(shapes)` and closes them, as
-`open` does with files.
+- `layer`: the name of the layer; `nothing` if the file has only one.
+- `projection`: a code (`"EPSG:2180"`), a PROJ string, WKT, or the path of a `.prj` file. `"auto"`
+  is a projection chosen for the data, and `"none"` keeps the coordinates of the file.
+  `"sphere(LON,LAT)"` is for domains on a sphere ([`sphere_domain`](@ref)), with longitude and
+  latitude of the point outside. By default longitude and latitude are projected as by `"auto"`, and
+  other coordinates are kept.
+- `unit`: `"m"` or `"km"`; `nothing` for the unit of the projection.
+- `tag_field`: the attribute that becomes the tag; `nothing` for the tag 1.
+
+Throws `:error_file` if the file, layer or field cannot be read, `:error_argument` for an invalid
+projection or unit, and `:error_domain` if polygons overlap.
+
+Call `close` when the shapes are no longer needed. The second form calls `f(shapes)` and closes
+them, as `open` does with files.
 
     Shapes("coast.geojson"; unit = "km") do shapes
         add_shapes!(domain, shapes; corner_angle = 45)
@@ -31,7 +38,7 @@ end
 function Shapes(path::AbstractString; layer = nothing, projection = nothing, unit = nothing,
                 tag_field = nothing)
     handle = Ref{LibPNPBSGeo.pnpbs_geo_shapes}(C_NULL)
-    # Absent arguments are "" in C.
+    # An empty text stands for an omitted argument in C.
     check_geo(LibPNPBSGeo.pnpbs_geo_read(path, something(layer, ""), something(projection, ""),
                                          something(unit, ""), something(tag_field, ""), handle))
     return Shapes(handle[])
@@ -46,7 +53,7 @@ function Shapes(f::Function, path::AbstractString; options...)
     end
 end
 
-# libpnpbs_geo has its own last message.
+# Throws if a call of libpnpbs_geo has failed, which has its own last error.
 function check_geo(code)
     code < 0 && throw(PNPBSError(status_name(code),
                                  string_or_empty(LibPNPBSGeo.pnpbs_geo_last_error())))
@@ -55,7 +62,7 @@ end
 
 Base.isopen(shapes::Shapes) = shapes.handle != C_NULL
 
-# The shapes that were added to domains stay there.
+# Shapes that were added to domains remain there.
 function Base.close(shapes::Shapes)
     handle = Ref(shapes.handle)
     isopen(shapes) && check_geo(LibPNPBSGeo.pnpbs_geo_destroy(handle))
@@ -70,9 +77,10 @@ Base.show(io::IO, shapes::Shapes) =
     add_shapes!(domain, shapes; corner_angle = 0) -> domain
 
 Adds [`Shapes`](@ref) to a domain in the plane or on a sphere: curves as [`add_polyline!`](@ref)
-does, points as [`add_fixed_nodes!`](@ref) does, and the names of tags. With `corner_angle = 0` every
-vertex becomes a node; otherwise only those where the direction turns by more than this many degrees.
-Curves that cross or do not close are found by [`check_domain`](@ref); see [`explain`](@ref).
+does, points as [`add_fixed_nodes!`](@ref) does, and the names of tags. With `corner_angle = 0`
+every vertex becomes a node. Otherwise only vertices where the direction turns by more than this
+angle in degrees become nodes. [`check_domain`](@ref) finds curves that cross or do not close; see
+[`explain`](@ref).
 """
 function add_shapes!(domain::Domain, shapes::Shapes; corner_angle::Real = 0)
     check_geo(LibPNPBSGeo.pnpbs_geo_add_to_domain(live(shapes), live(domain.context), live(domain),
@@ -83,8 +91,9 @@ end
 """
     shape_counts(shapes) -> (vertices = ..., boundary = ..., inner = ..., points = ...)
 
-Returns the numbers of what was read: distinct positions, including those of points; boundary curves
-and inner ones, closed or between the vertices where curves meet; and fixed nodes.
+Returns the numbers of entities that were read: distinct positions, including those of points;
+boundary and inner curves, which are closed or lie between the vertices where curves meet; and fixed
+nodes.
 """
 function shape_counts(shapes::Shapes)
     counts = Tuple(Ref{Int64}(0) for _ in 1:4)
@@ -95,9 +104,9 @@ end
 """
     projection(shapes) -> (name = ..., unit = ..., proj = ..., wkt = ..., prj = ..., scale = ...)
 
-Returns the projection of x and y as texts, `""` where the file does not define it: a name, their
-unit, the PROJ string, WKT 2, and the content of `.prj` files; and the range of projected length
-over length on the Earth.
+Returns the projection of x and y as texts, which are empty if the file does not define its
+coordinate system: a name, the unit, the PROJ string, WKT 2, and the content of a `.prj` file.
+`scale` is the range of projected length over length on the Earth.
 """
 function projection(shapes::Shapes)
     texts = Tuple(Ref{Cstring}() for _ in 1:5)
@@ -112,7 +121,7 @@ end
 """
     notes(shapes) -> Vector{String}
 
-Returns notes on how the file was interpreted.
+Returns notes on the interpretation of the file.
 """
 function notes(shapes::Shapes)
     count = Ref{Int32}(0)
@@ -129,8 +138,8 @@ end
 """
     write_prj(shapes, results)
 
-Writes the projection beside a file of results, as for shapefiles: `"nodes.prj"` for `"nodes.vtu"`.
-On several ranks call it on one.
+Writes the projection next to a file of results, as for shapefiles: `"nodes.prj"` for `"nodes.vtu"`.
+On several ranks, call it on one of them. Throws `:error_state` if the projection is not known.
 """
 function write_prj(shapes::Shapes, results::AbstractString)
     check_geo(LibPNPBSGeo.pnpbs_geo_write_prj(live(shapes), results))
@@ -141,8 +150,8 @@ end
     to_degrees(shapes, points) -> degrees
     from_degrees(shapes, degrees) -> points
 
-Convert points to longitude and latitude, on the ellipsoid of the file, and back; `(2, n)` both.
-Values that do not exist are infinite.
+Convert points to longitude and latitude in degrees, on the ellipsoid of the file, and back. Both
+are `(2, n)`. Values that do not exist become infinite. Both return a new matrix.
 """
 to_degrees, from_degrees
 
@@ -162,7 +171,7 @@ end
     explain(shapes, message) -> String
 
 Returns the message of the last error about a domain of these shapes, with longitude and latitude
-inserted after each point "(x, y)". Any other text is returned as it is.
+after each point "(x, y)". Any other text is returned without changes.
 """
 explain(shapes::Shapes, message::AbstractString) =
     string_or_empty(LibPNPBSGeo.pnpbs_geo_explain(live(shapes), message))
@@ -177,11 +186,18 @@ geo_build_info() = string_or_empty(LibPNPBSGeo.pnpbs_geo_build_info())
 """
     GeoGrid(path, low, high; variable = nothing, projection = nothing)
 
-Values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads; all its functions are
-local. `low` and `high` are the corners of the part that is read, in the projection of the points at
-which it is evaluated; `projection` is that projection, as in [`Shapes`](@ref) or the `wkt` of its
-[`projection`](@ref); by default the points are in the grid's own system. `variable` is the name of
-one in a file of several, or the number of a band. `close` it when it is no longer needed.
+Opens values on a grid in a file: GeoTIFF, NetCDF and other formats that GDAL reads. All functions
+of grids are local. The file stays open, and blocks of it are read where values are requested. Call
+`close` when the grid is no longer needed.
+
+- `low`, `high`: opposite corners of the requested part, in the projection of the points at which
+  the grid is evaluated.
+- `variable`: the name of a variable, or the number of a band; `nothing` if the file has only one.
+- `projection`: the projection of the points, as in [`Shapes`](@ref) or the `wkt` of its
+  [`projection`](@ref). By default the points are in the coordinate system of the grid.
+
+Throws `:error_file` if the file or variable cannot be read, and `:error_spacing` if the grid has no
+values in the requested part.
 
     depth = GeoGrid("depth.tif", low, high; projection = projection(shapes).wkt)
     set_spacing!(placement, x -> clamp.(0.02 .* grid_values(depth, x), 0.5, 20))
@@ -217,16 +233,17 @@ Base.show(io::IO, grid::GeoGrid) = print(io, "PNPBS.GeoGrid(", isopen(grid) ? ""
 """
     grid_values(grid, points) -> values
 
-Evaluates the grid at points, `2 x n`: linear in each direction between the centres of the cells,
-constant beyond the edge. Cells without data take the value of the nearest cell that has some.
+Evaluates the grid at points, `(2, n)`. Values are linear in each direction between the centres of
+the cells, and constant beyond the edge. Cells without data have the value of the nearest cell with
+data.
 """
 grid_values(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[1]
 
 """
     inside_grid(grid, points) -> BitVector
 
-Returns whether points, `2 x n`, lie in the grid, or less than half a cell beyond its edge; also where
-no cell around them has data.
+Returns whether points, `(2, n)`, lie in the grid or less than half a cell beyond its edge, also
+where no cell around them has data.
 """
 inside_grid(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[2] .!= 0
 
@@ -241,9 +258,9 @@ end
 """
     grid_slopes(grid, points; radius = 0) -> slopes
 
-Returns how steep the grid is at points, `2 x n`: the change of its values per unit of length.
-`radius` is that of the sphere along which lengths are, if the points are longitude and latitude in
-degrees; with 0, lengths are those of the plane of the points.
+Returns the slope of the grid at points, `(2, n)`: the change of its values per unit of length. If
+the points are longitude and latitude in degrees, `radius` is that of the sphere along which lengths
+are measured. With 0, lengths are those in the plane of the points.
 """
 function grid_slopes(grid::GeoGrid, points::AbstractMatrix; radius::Real = 0)
     size(points, 1) == 2 || throw(DimensionMismatch("points have x and y: 2 rows"))
@@ -257,11 +274,20 @@ end
     depth_spacing(depths; slopes = nothing, wave = 30, period = 44712, slope = 0, least = 10,
                   metres = 1) -> d
 
-Returns the d of models of tides and surges by the depth of the water in metres, positive down
-(elevations must be negated): `wave` nodes per length of a long wave of this `period` in seconds, and
-`slope` nodes per 2 pi h / |grad h|, each with 0 not at all. Shallower water than `least`, and land,
-count as flat at that depth. `slopes` are those of the depths, in metres per unit of length, as from
-[`grid_slopes`](@ref); a unit of length is so many `metres`.
+Returns the spacing of models of tides and surges by the depth h of the water: the lesser of the
+spacings by the length of waves and by the slope of the bottom. Water shallower than `least`, and
+land, count as flat at that depth. Local.
+
+- `depths`: depths in metres, positive down: elevations must be negated.
+- `slopes`: slopes of the depths, in metres per unit of length, as returned by
+  [`grid_slopes`](@ref).
+- `wave`: number of nodes per length of a long wave; 0 for no such bound.
+- `period`: period of the wave in seconds.
+- `slope`: number of nodes per 2 pi h / |grad h|; 0 for no such bound.
+- `least`: least depth in metres.
+- `metres`: metres per unit of length, for example 1000 for kilometres.
+
+Throws `:error_spacing` for a depth or slope that is not a number.
 
     set_spacing!(placement, x -> clamp.(depth_spacing(grid_values(depth, x); metres = 1000), 0.5, 20))
 """
@@ -279,7 +305,8 @@ end
 """
     grid_extent(grid) -> (low, high)
 
-Returns the bounding box of the whole grid in the file, in the projection of the points.
+Returns the corners of the bounding box of the whole grid in the file, in the projection of the
+points.
 """
 function grid_extent(grid::GeoGrid)
     low, high = zeros(2), zeros(2)

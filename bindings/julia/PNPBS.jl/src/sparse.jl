@@ -4,15 +4,15 @@
     sparse(rows::CompressedRows; columns = length(rows)) -> SparseMatrixCSC{Bool,Int64}
     sparse(rows::CompressedRows, values; columns = length(rows)) -> SparseMatrixCSC
 
-Returns the sparse matrix whose row i has its entries in the columns `rows[i]`, in time linear in
-their number. `values` has one for each of `rows.entries`, in that order, or is a `CompressedRows`
-with the same offsets, like the flags of [`stars`](@ref); without it the entries are `true`. If a
-row contains a column twice, the values are added (of `Bool`s, `|`).
+Returns the sparse matrix whose row i has its entries in the columns `rows[i]`. `values` has a value
+for each of `rows.entries`, in that order, or is a `CompressedRows` with the same offsets, like the
+flags of [`stars`](@ref). Without `values` the entries are `true`. If a row contains a column twice,
+the values are added (`Bool`s by `|`). The time is linear in the number of entries. Local.
 
-Lists contain ghosts as well, whose columns follow those of the nodes: on several ranks `columns` is
-`node_count(placement) + ghost_count(placement)`, and the matrix is this rank's rows, for vectors
-that [`update_ghosts!`](@ref) has completed. An entry beyond the last column is an `ArgumentError`.
-Local. `sparse` is that of Julia's SparseArrays.
+Lists contain ghosts, whose columns follow those of the nodes. On several ranks `columns` is
+therefore `node_count(placement) + ghost_count(placement)`. The matrix has the rows of this rank and
+multiplies vectors whose ghosts [`update_ghosts!`](@ref) has updated. An entry beyond the last
+column throws an `ArgumentError`. `sparse` is the function of Julia's SparseArrays.
 
     lists = adjacency(placement)
     weights = [w(i, j) for (i, neighbours) in enumerate(lists) for j in neighbours]

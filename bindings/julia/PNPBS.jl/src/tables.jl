@@ -4,7 +4,7 @@
 """
     library_version() -> VersionNumber
 
-Returns the version of the library that is loaded.
+Returns the version of the loaded library. Local.
 """
 function library_version()
     major, minor, patch = Ref{Int32}(), Ref{Int32}(), Ref{Int32}()
@@ -15,37 +15,37 @@ end
 """
     build_info() -> String
 
-Returns the build configuration, one "name: value" per line.
+Returns the build configuration, one "name: value" per line. Local.
 """
 build_info() = string_or_empty(LibPNPBS.pnpbs_build_info())
 
 """
     mpi_library() -> String
 
-Returns the MPI that the library was built with, such as "Open MPI 4.1.4"; empty in a build without
-MPI. Julia's MPI.jl must use the same one.
+Returns the MPI library that PNPBS was built with, such as "Open MPI 4.1.4". The text is empty in a
+build without MPI. MPI.jl must use the same MPI library. Local.
 """
 mpi_library() = string_or_empty(LibPNPBS.pnpbs_mpi_library())
 
 """
     shutdown()
 
-Finalises Kokkos if PNPBS initialised it. Optional. Kokkos cannot be initialised twice, so nothing
-can be placed afterwards. Local.
+Finalises Kokkos if PNPBS has initialised it. The call is optional. Kokkos cannot be initialised
+again, so placements cannot compute afterwards. Throws `:error_state` in a callback. Local.
 """
 shutdown() = check_without_context(LibPNPBS.pnpbs_finalize())
 
 """
     discard_unfinished_files()
 
-Removes the temporary files of unfinished writes of this process; for programs about to end.
+Removes the temporary files of unfinished writes of this process. Call it before the program ends
+early. Local.
 """
 discard_unfinished_files() = check_without_context(LibPNPBS.pnpbs_discard_unfinished_files())
 
 row_count(count) = (n = Ref{Int32}(0); check_without_context(count(n)); 0:(n[] - 1))
 
-# Returns a row of a table, given the names of the columns that are strings and the function that
-# fills them.
+# Returns a row of a table as a named tuple of strings, which fill! stores.
 function text_row(columns::NTuple{N,Symbol}, fill!) where {N}
     texts = [Ref{Cstring}() for _ in columns]
     check_without_context(fill!(texts...))
@@ -55,8 +55,8 @@ end
 """
     option_table()
 
-Returns the options of contexts and placements ([`set!`](@ref)): a vector of named tuples `(name,
-type, default, range, help)`.
+Returns the options of contexts and placements ([`set!`](@ref)) as a vector of named tuples `(name,
+type, default, range, help)` of strings. Local.
 """
 option_table() =
     [text_row((:name, :type, :default, :range, :help),
@@ -66,8 +66,8 @@ option_table() =
 """
     statistic_table()
 
-Returns the statistics of placements ([`statistic`](@ref)): a vector of named tuples `(name, type,
-help)`.
+Returns the statistics of placements ([`statistic`](@ref)) as a vector of named tuples `(name, type,
+help)` of strings. Local.
 """
 statistic_table() =
     [text_row((:name, :type, :help), (texts...) -> LibPNPBS.pnpbs_statistic_info(i, texts...))
@@ -76,8 +76,8 @@ statistic_table() =
 """
     format_table()
 
-Returns the formats of files ([`write_file`](@ref)): a vector of named tuples `(name, help, binary,
-elements)`.
+Returns the file formats ([`write_file`](@ref)) as a vector of named tuples `(name, help, binary,
+elements)`. `elements` is whether one file can hold nodes and elements. Local.
 """
 format_table() = format_row.(row_count(LibPNPBS.pnpbs_format_count))
 

@@ -3,17 +3,20 @@
 """
     Transfer(placement, values; order = 1)
 
-Transfers a field to a later set of nodes: copies the values at the current nodes of the placement,
-with these nodes and their triangles or tetrahedra, each rank its own. `values` is a vector with an
-entry for each node of this rank, or an array whose last index is that of the node. The nodes may
-then move, be replaced or change their ranks, and the placement may be closed. The field is linear
-on each triangle or tetrahedron; beyond their boundary, next to curved boundaries, it is
-extrapolated from the one at the nearest point of that boundary. Linear fields are thus preserved,
-and others change by a term of second order in d. With `order = 2` a quadratic polynomial is fitted
-to the neighbours of each node: then quadratic fields are preserved, others change by a term of
-third order, and next to jumps they may leave the range of the values there ([`linear_nodes`](@ref)
-returns the number of nodes where this was not possible). A value that is not finite is a
-[`PNPBSError`](@ref) that names it. Collective.
+Creates a transfer of a field to later sets of nodes. It holds copies of the values at the current
+nodes of a placement, of these nodes, and of their triangles or tetrahedra, each rank its own. The
+nodes may then move, be replaced or change their ranks, and the placement may be closed. Collective.
+
+- `values`: a vector with an entry for each node of this rank, or an array whose last index is that
+  of the node.
+- `order`: 1 or 2. With 1 the field is linear on each triangle or tetrahedron. Beyond their
+  boundary, next to curved boundaries, it is extrapolated from the element at the nearest point of
+  that boundary. Linear fields are preserved, and others change by a term of second order in d. With
+  2 a quadratic polynomial is fitted to the neighbours of each node: quadratic fields are preserved,
+  and others change by a term of third order. Next to jumps such a field may leave the range of the
+  values. [`linear_nodes`](@ref) returns the number of nodes without a polynomial.
+
+Throws a [`PNPBSError`](@ref) that names the value if a value is not finite.
 
     transfer = Transfer(placement, u)
     set_spacing!(placement, d)
@@ -24,7 +27,7 @@ returns the number of nodes where this was not possible). A value that is not fi
 mutable struct Transfer
     handle::LibPNPBS.pnpbs_transfer
     context::Context
-    shape::Dims  # shape of the values at one node
+    shape::Dims  # size of the values at one node
 end
 
 function Transfer(placement::Placement, values::AbstractArray{<:Real}; order::Integer = 1)
@@ -62,7 +65,8 @@ end
     linear_nodes(transfer) -> Int
 
 Returns the number of nodes, on all ranks, at which a second-order transfer has no quadratic
-polynomial: they had too few neighbours, or are on surfaces alone. -1 for a first-order one. Local.
+polynomial, because they have too few neighbours or lie on surfaces alone. Returns -1 for a
+first-order transfer. Local.
 """
 function linear_nodes(transfer::Transfer)
     count = Ref{Int64}(0)
@@ -73,13 +77,13 @@ end
 """
     at_nodes(transfer, placement; conserve = false) -> Array{Float64}
 
-Evaluates the field at the nodes of this rank that a placement has now: the same bits for any number
-of ranks and threads, at creation and now. A node at the position of an earlier one gets its value
-unchanged. The placement may be another one of the same context, in the same dimension. With
-`conserve` the same number is added to the values of each component, so that the integral of the
-field that is linear on the current triangles or tetrahedra equals its integral on the previous
-ones; on a sphere that is the sum of the triangles' areas along it times the means of their corners'
-values. Collective.
+Evaluates the field at the current nodes of this rank of a placement. The placement may be another
+one of the same context and dimension. A node at the position of an earlier one has its value
+unchanged. The bits do not depend on the number of ranks and threads, at creation and now. With
+`conserve` one number per component is added everywhere, so that the integral of the field on the
+current triangles or tetrahedra equals that on the previous ones. On a sphere the integral is the
+sum of the areas of the triangles along it times the means of the values at their corners.
+Collective.
 """
 function at_nodes(transfer::Transfer, placement::Placement; conserve::Bool = false)
     n = node_count(placement)
@@ -92,13 +96,13 @@ end
 """
     at_points(transfer, points) -> Array{Float64}
 
-Evaluates the field at arbitrary points, `(dim, n)`; each rank passes its own, 0 or more.
-Collective.
+Evaluates the field at points, `(dim, n)`. Each rank passes its own points, or none. Throws
+`:error_argument` for coordinates that are not finite. Collective.
 """
 function at_points(transfer::Transfer, points::AbstractMatrix{<:Real})
     n = size(points, 2)
     values = zeros(transfer.shape..., n)
-    # Points of another dimension get the number -1, which is an error on all ranks.
+    # For another dimension the invalid number -1 makes the library report an error on all ranks.
     right = size(points, 1) == ndims(transfer)
     check(transfer.context, LibPNPBS.pnpbs_transfer_at_points(live(transfer), right ? n : -1,
                                                               dense(points), values))

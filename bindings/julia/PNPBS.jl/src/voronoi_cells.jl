@@ -1,33 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Voronoi cells in plain arrays. No object of the library has to be closed.
+# Voronoi cells as plain arrays. They need not be closed.
 
 """
     VoronoiCells(placement)
 
-Makes the Voronoi cells of the current nodes: for each node the part of the elements of the
-placement that is closer to it than to any other, with its volume, its faces to neighbours and its
-share of the boundary. Volumes are areas in the plane and on surfaces, and areas of faces are lengths
-there; on surfaces distances are straight, and on spheres lengths, areas and distances are along the
-sphere. Each element is divided among the corners of all elements that touch it, so a node sees none
-through a gap that has no elements. The volumes add up to that of the elements to rounding, on spheres
-to that of the triangles along the sphere. Cells are functions of the nodes alone: any number of ranks
-and threads gives the same bits. They are a copy: nodes may move afterwards, and the placement may be
-closed.
-Collective.
+Creates the Voronoi cells of the current nodes: for each node the part of the elements of the
+placement that is closer to it than to any other node, with its volume, its faces to neighbours and
+its share of the boundary. In the plane and on surfaces, volumes are areas, and areas of faces are
+lengths. On surfaces alone distances are straight. On spheres lengths, areas and distances are along
+the sphere. Each element is divided among the corners of all elements that touch it, so a cell does
+not extend through a gap without elements. The volumes add up to that of the elements, up to
+rounding; on spheres, to the area of the triangles along the sphere. The bits do not depend on the
+number of ranks and threads. The cells are copies: nodes may move afterwards, and the placement may
+be closed. Collective. Throws `:error_state` without nodes.
 
 Cells are in the order of [`nodes`](@ref).
 
-- `volumes`: of each cell.
+- `volumes`: volume of each cell.
 - `boundary`: the outward normal integrated over the part of the boundary that is closest to the
-  node, `(dim, nodes)`: where the boundary is flat, its length is the area of this part; 0 for nodes
-  away from the boundary. In the plane and in bodies the areas of a cell's faces times their normals
-  and its share of the boundary add up to 0.
-- `neighbours`: [`CompressedRows`](@ref) of the ids of the neighbours that each cell has a face with,
-  by id.
-- `numbers`: of these neighbours, as in [`numbering`](@ref); one array for all rows, as
-  `neighbours.entries`. So are the following.
-- `areas`: of the faces; both cells at a face have the same area to the last bit.
-- `distances`: from the node to the neighbour.
+  node, `(dim, nodes)`. Where the boundary is flat, its length is the area of this part. It is 0 for
+  nodes away from the boundary. In the plane and in bodies, the areas of the faces of a cell times
+  their normals and its share of the boundary add up to 0.
+- `neighbours`: [`CompressedRows`](@ref) with the ids of the neighbours with which each cell shares
+  a face, in the order of ids.
+- `numbers`: numbers of these neighbours, as in [`numbering`](@ref). This array and the following
+  ones have an entry for each of `neighbours.entries`.
+- `areas`: areas of the faces. Both cells at a face have the same area to the last bit.
+- `distances`: distances from the node to the neighbour.
 - `normals`: unit vectors from the node to the neighbour, `(dim, faces)`.
 """
 Base.@kwdef struct VoronoiCells

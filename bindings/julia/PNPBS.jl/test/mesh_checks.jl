@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Checks of properties that a distributed mesh has on every rank.
+# Checks that every rank's part of a distributed mesh must pass.
 
 measure_of(u, v) = (u[1] * v[2] - u[2] * v[1]) / 2
 measure_of(u, v, w) = (u[1] * (v[2] * w[3] - v[3] * w[2]) + u[2] * (v[3] * w[1] - v[1] * w[3]) +
                        u[3] * (v[1] * w[2] - v[2] * w[1])) / 6
 
-# Returns areas of triangles in the plane or volumes of tetrahedra.
+# Returns areas of triangles in the plane, or volumes of tetrahedra.
 measures(mesh) = [measure_of((mesh.coordinates[:, k] - mesh.coordinates[:, corners[1]]
                               for k in corners[2:end])...) for corners in eachcol(mesh.elements)]
 
-# Checks that owned items come first, with numbers from `first` on, followed by those of other ranks
-# sorted by number.
+# Returns whether owned entities come first, with numbers from `first` on, and then those of other
+# ranks in the order of numbers.
 function in_order(numbers, owners, first, owned, rank)
     others = numbers[(owned + 1):end]
     return numbers[1:owned] == first .+ (0:(owned - 1)) && all(owners[1:owned] .== rank) &&

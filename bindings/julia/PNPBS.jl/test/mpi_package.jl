@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of communicators of MPI.jl on several ranks, run by mpirun. MPI.jl is the stand-in in this
-# folder, so this tests how PNPBS uses the names of MPI.jl, and not MPI.jl itself.
+# Tests of contexts on communicators of MPI.jl, on several ranks. mpirun starts this program. It
+# uses the stand-in for MPI.jl next to this file, so it tests the calls of PNPBS and not MPI.jl.
 push!(LOAD_PATH, joinpath(@__DIR__, "stand_in"))
 using PNPBS
 using Test
 
 include("support.jl")
 
-# Before MPI is loaded, every communicator is rejected.
+# Before MPI is loaded, no communicator is accepted.
 @test_throws ArgumentError Context([1, 2])
 
 import MPI
@@ -29,13 +29,13 @@ end
     context = one_run()
     close(context)
     @test fails(() -> Context(MPI.COMM_NULL), :error_mpi, "NULL")
-    # After an unknown option the context exists, and it is closed with MPI.
+    # An unknown option throws after the context is created, which is then closed with MPI.
     @test fails(() -> Context(MPI.COMM_WORLD; stepz = 3), :error_key, "steps")
     @test length(PNPBS.contexts_of_mpi) == 1
     @test_throws ArgumentError Context("world")
 end
 
-# These are the kinds of handles that MPI.jl has with different MPI libraries.
+# The kinds of handles that MPI.jl has with different MPI libraries.
 @testset "handles" begin
     handle = MPI.OpenMPI.fortran_handle(MPI.COMM_WORLD.val)
     @test PNPBS.fortran_handle(MPI, MPI.COMM_WORLD.val) == handle
@@ -43,7 +43,7 @@ end
     @test PNPBS.fortran_handle(MPI, Cint(7)) == 7
 end
 
-# Julia 1.9 and later load the extension themselves if packages come from a project.
+# Julia 1.9 and later load the extension automatically if the packages come from a project.
 which(Context, Tuple{MPI.Comm}).module === PNPBS && include("../ext/PNPBSMPIExt.jl")
 
 @testset "by the extension" begin
@@ -52,7 +52,7 @@ which(Context, Tuple{MPI.Comm}).module === PNPBS && include("../ext/PNPBSMPIExt.
     @test fails(() -> Context(MPI.COMM_NULL), :error_mpi, "NULL")
 end
 
-# MPI.Finalize closes the open contexts in the same order on all ranks.
+# MPI.Finalize closes open contexts in the same order on all ranks.
 const contexts = [one_run(), one_run()]
 MPI.Finalize()
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The few functions of Open MPI that the tests need, by their names in the library. Programs should
-# use MPI.jl instead.
+# The functions of Open MPI that the tests need, called by their names in the library. Programs use
+# MPI.jl instead.
 module OpenMPI
 
 using Libdl
@@ -8,7 +8,7 @@ using Libdl
 const libmpi = "libmpi.so.40"
 const library = Ref{Ptr{Cvoid}}(C_NULL)
 
-# Open MPI loads its own modules, which need its symbols.
+# Open MPI loads modules that need its symbols, so these must be global.
 __init__() = (library[] = dlopen(libmpi, RTLD_LAZY | RTLD_GLOBAL))
 
 mpi(name) = dlsym(library[], name)
@@ -42,7 +42,7 @@ function version()
     return String(text[1:length[]])
 end
 
-# Sends `values` to a rank and receives `count` from it.
+# Sends `values` to a rank and receives `count` values from it.
 function exchange(values::Vector{Int64}, rank, count)
     received = zeros(Int64, count)
     @ccall $(mpi(:MPI_Sendrecv))(
@@ -52,7 +52,7 @@ function exchange(values::Vector{Int64}, rank, count)
     return received
 end
 
-# Returns the datatype of a number, or the operation of a function.
+# Return the MPI datatype of a number type, and the MPI operation of a function.
 datatype(::Type{Int64}) = int64()
 datatype(::Type{Float64}) = mpi(:ompi_mpi_double)
 operation(::typeof(+)) = mpi(:ompi_mpi_op_sum)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Solves Poisson's equation with a known solution by linear finite elements on distributed meshes of
-# one rank: on the plain arrays, in Ferrite and in Gridap, with quadrature of second order, before
-# and after the spacing is adapted. The problem is that of examples/c/petsc_poisson.
-# usage, as a program: julia poisson.jl [FILE D], instead of the square and the box
+# Poisson's equation with a known solution, by linear finite elements on distributed meshes of one
+# rank: on the plain arrays, in Ferrite and in Gridap, with quadrature of second order. A second
+# solve uses an adapted spacing. The problem is that of examples/c/petsc_poisson.
+# usage as a program: julia poisson.jl [FILE D]; without arguments a square and a box are used
 using LinearAlgebra
 using PNPBS
 using SparseArrays
 
-# The installed ones of these packages. Julia 1.9 and later load the extensions themselves if
+# The installed packages of these. Julia 1.9 and later load the extensions automatically if the
 # packages come from a project.
 const GRID_PACKAGES = filter(name -> Base.find_package(name) !== nothing, ["Ferrite", "Gridap"])
 
@@ -20,8 +20,8 @@ for name in GRID_PACKAGES
     load_extension(name)
 end
 
-# The solution u = 1 / (1 + r^2), where r is the distance from a point divided by a length. The load
-# is -Laplace u.
+# The known solution u = 1 / (1 + r^2), where r is the distance from `centre` over `length`. The
+# load is -Laplace u.
 struct Peak
     centre::Vector{Float64}
     length::Float64
@@ -35,15 +35,13 @@ function load_at(p, x)
     return (2 * length(p.centre) / (1 + r2)^2 - 8 * r2 / (1 + r2)^3) / p.length^2
 end
 
-# Returns the barycentric coordinates of the quadrature points as columns. Each point is near one
-# corner.
+# Returns barycentric coordinates of the quadrature points, one next to each corner, as columns.
 function quadrature_points(corners)
     far = corners == 3 ? 1 / 6 : (5 - sqrt(5)) / 20
     return fill(far, corners, corners) + (1 - corners * far) * I
 end
 
-# Returns the quadrature points in an element, its measure, and the gradients of its linear
-# functions.
+# Returns quadrature points of an element, its measure, and the gradients of its hat functions.
 function of_element(mesh, e)
     x = mesh.coordinates[:, mesh.elements[:, e]]
     sides = x[:, 2:end] .- x[:, 1]
@@ -159,8 +157,8 @@ function quadrature_in_gridap(dim)
     return Gridap.ReferenceFEs.GenericQuadrature(points, weights)
 end
 
-# Returns errors(mesh, peak) with constant spacing and with adapted spacing, and the numbers of
-# nodes. The adapted d is smaller where the load is large, by up to a factor of three.
+# Returns errors(mesh, peak) on the domain with a constant and an adapted spacing, with the numbers
+# of nodes. The adapted d is up to three times smaller where the load is large.
 function before_and_after_adapting(errors, domain, d, p)
     placement = Placement(domain)
     run!(set_spacing!(placement, d))

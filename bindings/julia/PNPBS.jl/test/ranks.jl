@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests on the ranks of MPI_COMM_WORLD, given by its raw Fortran handle. Run with mpirun.
+# Tests over the ranks of MPI_COMM_WORLD, through its Fortran handle. mpirun starts this program.
 using PNPBS
 using SparseArrays
 using Test
@@ -43,7 +43,7 @@ end
     @test all(issorted(ids[list]) for list in lists)
     @test all(hypot((points[:, i] - points[:, j])...) < 0.2 for i in 1:n for j in lists[i])
 
-    # Ids sent by the pattern arrive at the corresponding ghosts, and so do the contiguous numbers.
+    # Ids and contiguous numbers that are sent by the pattern equal those of the ghosts.
     pattern = exchange_pattern(placement)
     numbers = numbering(placement)
     @test numbers.count == n
@@ -58,7 +58,7 @@ end
     close(context)
 end
 
-# The matrix has the rows of this rank and columns for its nodes and its ghosts.
+# The matrix has the rows of this rank and columns for its nodes and ghosts.
 @testset "sparse matrices and arrays of earlier results" begin
     context = Context(world)
     placement = placed_square(context)
@@ -74,13 +74,13 @@ end
     @test again == ghosts(placement) && all(values(again) .=== values(others))
     @test adjacency!(placement, lists) === lists && lists == adjacency(placement)
 
-    # The edges include those from a node of this rank to ghosts.
+    # The picture has the edges from nodes of this rank, also those to ghosts.
     _, (along_x, _) = PNPBS.picture(placement, :adjacency)
     @test length(along_x) == 3 * count(i < j for i in eachindex(lists) for j in lists[i])
     close(context)
 end
 
-# Ghosts get the values of their owners. Sums have the bits of one process.
+# Ghosts receive the values of their owners, and sums have the bits of one process.
 @testset "fields" begin
     context = Context(world)
     placement = placed_square(context)
@@ -117,7 +117,7 @@ function placed_box(context)
     return initialise!(set_spacing!(Placement(box), 0.2))
 end
 
-# Returns sums over the elements around each node of this rank, in their order, by the node's id.
+# Returns, by id, sums over the elements around each node of this rank, in their order.
 function rows_by_id(placement)
     own, others = nodes(placement), ghosts(placement)
     points, ids = [own.points others.points], [own.ids; others.ids]
@@ -156,7 +156,7 @@ end
     close(context)
 end
 
-# Returns the ids of the nodes that a rank shares with another one, by number.
+# Returns the ids of the nodes that this rank shares with another one, in the order of numbers.
 shared_with(mesh, other) =
     mesh.ids[[node for (node, sharing) in zip(mesh.shared_nodes, mesh.sharing_ranks)
               if other in sharing]]
@@ -171,14 +171,14 @@ shared_with(mesh, other) =
             mesh = DistributedMesh(placement; ghost_layers = layers)
             check_mesh(mesh, rank)
             @test total(sum(measures(mesh)[1:mesh.owned_elements])) ≈ 1
-            # Each item is owned exactly once over all ranks.
+            # Each entity has one owner over all ranks.
             @test total(mesh.owned_nodes) == mesh.all_nodes == alone.all_nodes
             @test total(mesh.owned_elements) == mesh.all_elements == alone.all_elements
             @test total(count(==(rank), mesh.facet_owners)) == size(alone.facets, 2)
             @test mesh.first_node == numbering(placement).first
             numbers = collect(mesh.first_element .+ (0:(mesh.owned_elements - 1)))
             @test total(sum(numbers)) == sum(0:(mesh.all_elements - 1))
-            # With a ghost layer the rank has all elements at its nodes.
+            # With a layer, the mesh has all elements at the nodes of this rank.
             elements_here = size(mesh.elements, 2)
             at_nodes_here = count(corners -> any(corners .<= mesh.owned_nodes),
                                   eachcol(mesh.elements))
@@ -237,7 +237,7 @@ end
     context = Context(world)
     placement = Placement(square_domain(context); steps = 20)
     last_rank = ranks - 1
-    # Every rank evaluates some points, and on the last rank the function throws.
+    # The function is called on every rank and throws on the last one.
     set_spacing!(placement) do x
         rank == last_rank && error("not today")
         fill(0.05, size(x, 2))
@@ -258,7 +258,7 @@ end
     @test e isa PNPBSError && e.status === :error_spacing && occursin("-1", e.message)
     @test run!(placement) in (:ok, :not_converged)
 
-    # One rank's monitor stops all ranks.
+    # The monitor of one rank stops all ranks.
     set_nodes!(placement, zeros(2, 0))
     set!(placement; steps = 100)
     set_monitor!((_...) -> rank == last_rank, placement)
@@ -268,8 +268,8 @@ end
 
 @testset "do over ranks" begin
     kept = Ref{Any}()
-    # If every rank ends normally, the context is closed. If f throws, it is not, as the other ranks
-    # might never close theirs.
+    # If f returns on every rank, the context is closed. If f throws, it is not closed, because the
+    # other ranks may not close theirs.
     Context(context -> (kept[] = context), world)
     @test !isopen(kept[])
     @test_throws ErrorException Context(context -> (kept[] = context; error("x")), world)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs the tests of the package in one process. Arguments select some of the files, as in
-# `runtests.jl package domains`. Tests that need several ranks are in ranks.jl, which mpirun starts.
+# Runs the tests in one process. Arguments select files, as in `runtests.jl package domains`. Tests
+# on several ranks are in ranks.jl, which mpirun starts.
 using PNPBS
 using Test
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Common functions of several tests.
+# Helpers of several tests.
 
 # Returns the exception that f throws, or nothing.
 function thrown(f)
@@ -11,7 +11,7 @@ function thrown(f)
     end
 end
 
-# Returns whether f throws the library's error of this status with these words in its message.
+# Returns whether f throws a PNPBSError of this status with these words in its message.
 function fails(f, status::Symbol, words...)
     e = thrown(f)
     good = e isa PNPBSError && e.status === status && all(word -> occursin(word, e.message), words)
@@ -26,7 +26,8 @@ end
 
 graded(x) = 0.04 .+ 0.05 .* x[1, :]
 
-# There are few steps, as these tests check the interface and not the quality.
+# Returns a placement after a run of few steps, because these tests check the interface and not the
+# quality.
 function placed_square(context; spacing = graded)
     placement = Placement(square_domain(context); steps = 40)
     set_spacing!(spacing, placement)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of adaptive loops: solve, estimate the error, change d, place nodes again.
+# Tests of changes of the spacing on a live placement.
 
 mean(values) = sum(values) / length(values)
 
-# Returns the number of triangles per unit area that d demands: A triangle with edges of length d
-# has an area of sqrt(3)/4 d^2.
+# Returns the number of triangles per area that d implies: a triangle with edges d has the area
+# sqrt(3)/4 d^2.
 wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
 
 @testset "adapting" begin
@@ -14,7 +14,7 @@ wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
         run!(placement)
         @test size(triangles(placement), 2) ≈ wanted_triangles(0.08) rtol = 0.1
 
-        # The values are given at the current nodes.
+        # Values at the current nodes.
         x = nodes(placement).points
         set_spacing!(placement, [0.03 + 0.05 * t for t in x[1, :]])
         run!(placement)
@@ -34,7 +34,7 @@ wanted_triangles(d) = 1 / (sqrt(3) / 4 * d^2)
                     :error_argument, "step")
         @test_throws DimensionMismatch set_spacing!(placement, values; origin = (0, 0), step = 1)
 
-        # Functions are replaced in turn, and the garbage collector may free the previous ones.
+        # Functions replace each other; earlier ones may be collected.
         for k in 1:3
             set_spacing!(x -> fill(0.05 + 0.02k, size(x, 2)), placement)
             GC.gc()

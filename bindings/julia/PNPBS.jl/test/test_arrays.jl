@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of results without copies, and of results in earlier arrays.
+# Tests of results as views without copies, and of results in arrays of earlier results.
 
 struct Site
     x::Float64
@@ -29,8 +29,8 @@ end
     end
 end
 
-# If StaticArrays is not installed, a stand-in has the same structure: a vector type whose numbers
-# lie in a tuple.
+# SVector of StaticArrays if that is installed, otherwise a stand-in with the same layout, which
+# stores its numbers in a tuple.
 if Base.find_package("StaticArrays") === nothing
     struct StandInArray{N,T} <: AbstractVector{T}
         data::NTuple{N,T}
@@ -55,12 +55,12 @@ end
             vectors[1] = vectors[2]
             points[1, 3] = 7
             @test points[:, 1] == points[:, 2] && vectors[3][1] == 7
-            # The allocated memory does not grow with the number of points.
+            # Allocations do not grow with the number of points.
             @test (@allocated reinterpret_columns(SVector{N,Float64}, points)) < 500
             @test_throws ArgumentError reinterpret_columns(SVector{5 - N,Float64}, points)
             @test_throws ArgumentError reinterpret_columns(SVector{N,Float32}, points)
         end
-        # Reinterpreted arrays can be input too.
+        # Input arrays may be reinterpreted vectors, too.
         corners = [SVector{2,Float64}((x, y)) for (x, y) in ((0, 0), (2, 0), (2, 1), (0, 1))]
         rectangle = add_polyline!(Domain(context), reshape(reinterpret(Float64, corners), 2, :))
         @test measure(rectangle) ≈ 2
@@ -80,7 +80,7 @@ same(arrays, others) = length(arrays) == length(others) && all(arrays .=== other
 
 allocated_by(get!, placement, result) = @allocated get!(placement, result)
 
-# Functions that return results, and those that fill an earlier result.
+# Getters, each with the function that fills an earlier result.
 const IN_PLANE = [(nodes, nodes!), (ghosts, ghosts!), (adjacency, adjacency!), (stars, stars!),
                   (triangles, triangles!)]
 const IN_SPACE = [(nodes, nodes!), (adjacency, adjacency!), (tetrahedra, tetrahedra!)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of Julia functions as callbacks, and of their exceptions.
+# Tests of Julia functions as callbacks, and of the exceptions that they throw.
 
 struct Unlucky <: Exception
     point::Vector{Float64}
@@ -20,14 +20,14 @@ end
         set_spacing!(constant, 0.1)
         run!(constant)
         @test statistic(constant, "hash") == statistic(placement, "hash")
-        # A function may change its argument without consequences.
+        # A function may change its argument, which is a copy.
         set_spacing!(x -> (x .= 7; fill(0.1, size(x, 2))), constant)
         run!(set_nodes!(constant, zeros(2, 0)))
         @test node_count(constant) > 0
     end
 end
 
-# A function of one point gives the same values.
+# Functions of one point result in the same nodes as functions of batches.
 @testset "functions of one point" begin
     Context() do context
         hash(set!) = (placement = Placement(square_domain(context); steps = 10); set!(placement);
@@ -51,7 +51,7 @@ end
         initialise!(placement)
         @test seen == Set([NTuple{3,Float64}])
 
-        # The function returns something other than a number or point, or takes other arguments.
+        # Functions that return no number or no point, or take other arguments.
         square = Placement(square_domain(context))
         set_spacing!((x, y) -> [0.1], square; per_point = true)
         wrong = thrown(() -> run!(square))
@@ -69,18 +69,18 @@ end
         set_spacing!(x -> throw(Unlucky(x[:, 1])), placement)
         e = thrown(() -> run!(placement))
         @test e isa Unlucky && length(e.point) == 2
-        # The exception leaves no trace: The next call works, and so does the next run.
+        # No pending exception remains: the next call and the next run succeed.
         @test node_count(placement) == 0
         set_spacing!(x -> fill(0.1, size(x, 2)), placement)
         @test run!(placement) in (:ok, :not_converged)
 
-        # An exception in a later run leaves the nodes unchanged.
+        # An exception in a later run does not change the nodes.
         hash = statistic(placement, "hash")
         set_spacing!(x -> error("no more"), placement)
         @test_throws ErrorException("no more") run!(placement)
         @test statistic(placement, "hash") == hash
 
-        # The number of returned values is checked before the library gets them.
+        # The size of a result is checked before the library receives it.
         set_spacing!(x -> [0.1], placement)
         @test_throws DimensionMismatch run!(placement)
         set_spacing!(x -> fill(0.1, 1, size(x, 2)), placement)
@@ -120,7 +120,7 @@ end
         domain = Domain(context)
         @test_throws ErrorException("no curve") add_curve!(t -> error("no curve"), domain, 0, 1)
         @test_throws DimensionMismatch add_curve!(t -> zeros(length(t), 2), domain, 0, 1)
-        # The curve fails later, when a placement is initialised.
+        # This curve fails later, when a placement is initialised.
         healthy = Ref(true)
         add_curve!(domain, 0, 2pi) do t
             healthy[] || error("worn out")
@@ -131,7 +131,7 @@ end
         healthy[] = false
         @test_throws ErrorException("worn out") run!(placement)
         healthy[] = true
-        # The function stays alive, although the domain is closed and has no references.
+        # The function stays alive after the domain is closed and collected.
         close(domain)
         GC.gc()
         @test run!(placement) in (:ok, :not_converged)

@@ -32,14 +32,14 @@
     end
 end
 
-# The begin of a curve is tested, which its shape alone does not determine. All arguments have
+# The start of a curve does not follow from its shape, so an open curve tests it. All arguments have
 # different values.
 @testset "open curves" begin
     Context() do context
         domain = add_polyline!(Domain(context), [0 2 2 0; 0 0 1 1])
         add_arc!(domain, (1, 0.25), 0.5; from = pi / 4, to = 3pi / 4, role = :inner, tag = 2)
         add_curve!(t -> [1.5cos.(t) 0.75sin.(t)]', domain, 0.1, 0.7; role = :inner, tag = 3)
-        # The user's angle decides which vertices are corners, and therefore nodes.
+        # The corner angle decides which vertices are corners and thus nodes.
         add_polyline!(domain, [0.1 0.15 0.2; 0.5 0.51 0.5]; role = :inner, closed = false,
                       tags = [4, 5], corner_angle = 20.0)
         segments, tags = outline(domain)
@@ -50,7 +50,7 @@ end
     end
 end
 
-# There are more vertices than segments, and each has tags that the other one does not have.
+# The graph has more vertices than segments, and vertices and segments have different tags.
 @testset "tags of graphs" begin
     Context() do context
         graph = add_pslg!(Domain(context), [0 2 2 0 1; 0 0 1 1 0.5], [1 2 3 4; 2 3 4 1];
@@ -106,10 +106,10 @@ end
         @test measure(inset) ≈ (1 - 2 * 0.042)^2 rtol = 0 atol = 1e-9
         @test Set(outline(inset).tags) == Set(7)
         @test measure(offset(-Inf, -0.042)) ≈ measure(inset) rtol = 0 atol = 1e-9
-        # A finer resolution has more points on the arcs at outer corners.
+        # A smaller resolution results in more points around the outer corners.
         finer(resolution) = length(outline(offset(0.1, 0, 0.42; resolution = resolution)).tags)
         @test finer(0.01) > 2 * finer(0.05)
-        # The area lies between four straight lines.
+        # The inset lies between four straight lines.
         left, right = 0.042 / 0.979, 0.958 / 1.021
         area = 0.916(right - left) - 0.021(right^2 - left^2)
         graded_inset = offset(x -> 0.1 .+ 0.05 .* x[1, :], -Inf, -0.42)
@@ -145,7 +145,7 @@ end
         @test fails(() -> read_poly!(Domain(context), "/none.poly"), :error_file, "/none.poly")
         @test fails(() -> parse_poly!(Domain(context), "4 2 x"; name = "mine"), :error_file, "mine")
 
-        # A point removes the region between a boundary and an inner curve.
+        # A hole point removes the region inside the inner curve.
         ring = add_polyline!(Domain(context), [0 3 3 0; 0 0 3 3])
         add_polyline!(ring, [1 2 2 1; 1 1 2 2]; role = :inner)
         add_hole!(ring, [1.5, 1.5])

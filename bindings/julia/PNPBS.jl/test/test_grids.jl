@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of meshes as grids of Ferrite and models of Gridap, if these are installed. Without Ferrite
-# its grids are tested with the stand-in in this folder.
+# Tests of conversions to grids of Ferrite and models of Gridap, if these are installed. Without
+# Ferrite the tests use the stand-in next to this file.
 include("poisson.jl")
 
 if !("Ferrite" in GRID_PACKAGES)
@@ -23,7 +23,7 @@ function square_with_a_line(context)
                          [0.3 0.7; 0.4 0.6]; role = :inner, closed = false, tags = 7)
 end
 
-# The domain has three strips, of which the middle one has no tag.
+# Returns a square of three strips, of which the middle one has no tag.
 function square_with_regions(context)
     square = add_polyline!(Domain(context), [0 1 1 0; 0 0 1 1]; tags = [3, 4, 4, 4])
     for (x, tag) in ((0.3, 7), (0.6, 8))
@@ -41,12 +41,12 @@ end
 surface_of_a_box(context) =
     set_filled!(add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1); tag = 5), false)
 
-# Returns a mesh that lacks a node, like that of one of several ranks.
+# Returns a mesh as one rank of several has it, without all nodes.
 lacking_a_node(mesh) =
     DistributedMesh(; (name => getfield(mesh, name) for name in fieldnames(typeof(mesh)))...,
                     all_nodes = mesh.all_nodes + 1)
 
-# Returns the sets of nodes of the facets with this tag.
+# Returns the node sets of the facets with this tag.
 facets_with(mesh, tag) = Set(Set.(eachcol(mesh.facets[:, mesh.facet_tags .== tag])))
 
 function check_grid_of_ferrite(mesh)
@@ -70,7 +70,7 @@ end
         grid = check_grid_of_ferrite(mesh_of(surface_of_a_box(context), 0.3))
         @test sort(collect(grid.cellsets["tag_5"])) == eachindex(grid.cells)
         @test length(grid.cellsets) == 1
-        # A region and a curve may have the same tag.
+        # Regions and curves may have the same tag.
         mesh_of_regions = mesh_of(square_with_regions(context), 0.1)
         grid = check_grid_of_ferrite(mesh_of_regions)
         @test Set(keys(grid.cellsets)) == Set(["tag_7", "tag_20"])
@@ -84,7 +84,7 @@ end
     end
 end
 
-# Returns the measures of the facets with each tag, and of all cells.
+# Returns measures of the facets with each tag, and of all cells.
 function measures_in_gridap(model, tags)
     measure(cells) = sum(Gridap.:∫(1.0) * Gridap.Measure(cells, 0))
     on(tag) = measure(Gridap.BoundaryTriangulation(model, tags = tag))
@@ -129,7 +129,7 @@ end
         model = check_model_of_gridap(mesh_of(box_with_a_wall(context), 0.25))
         on, all = measures_in_gridap(model, ["tag_5", "tag_6"])
         @test on ≈ [10, 0.36] && all ≈ 2
-        # A region and a curve may have the same tag.
+        # Regions and curves may have the same tag.
         check_model_of_gridap(mesh_of(square_with_regions(context), 0.1))
         model = check_model_of_gridap(mesh_of(surface_of_a_box(context), 0.3))
         @test last(measures_in_gridap(model, [])) ≈ 6
@@ -138,7 +138,7 @@ end
     end
 end
 
-# The errors equal those on the plain arrays, and those that examples/c/petsc_poisson lists.
+# The errors equal those on the plain arrays and those in examples/c/petsc_poisson.
 for name in GRID_PACKAGES
     @testset "Poisson's equation in $name" begin
         Context() do context

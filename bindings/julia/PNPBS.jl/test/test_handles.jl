@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of closing in every order, and of the use of closed objects.
+# Tests of closing objects in any order, and of using closed objects.
 
 @testset "closing" begin
     context = Context()
@@ -62,8 +62,8 @@ end
     end
 end
 
-# One stand-in is like MPI.jl from 0.20.19 on, which has the conversion. The other one is for MPICH,
-# whose handles equal Fortran's.
+# Stand-ins for MPI.jl from 0.20.19 on, which has the conversion, and for MPI.jl with MPICH, whose
+# handles are Fortran handles.
 module Converting
 module API
 const libmpi = "/none"

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of Ctrl-C during a call that takes long, and of the origin that is shown for exceptions of
-# callbacks.
+# Tests of Ctrl-C during a long call, and of the backtraces of exceptions in callbacks.
 
-# Sends this process the signal of Ctrl-C after this number of seconds.
+# Sends this process the signal of Ctrl-C after so many seconds.
 interrupt_after(seconds) = run(`sh -c "sleep $seconds; kill -INT $(getpid())"`, wait = false)
 
 # Interrupts f() after a second. Returns the exception that ends it, and the time from the interrupt
@@ -17,9 +16,9 @@ function interrupted(f)
 end
 
 @testset "Ctrl-C" begin
-    Base.exit_on_sigint(false)  # as at Julia's prompt; Ctrl-C ends a script
+    Base.exit_on_sigint(false)  # as at Julia's prompt; otherwise SIGINT ends the script
     Context() do context
-        # Without an interrupt the run would take minutes.
+        # Without an interrupt this run takes minutes.
         placement = Placement(square_domain(context); steps = 1_000_000, tolerance_mean = 1e-300,
                               tolerance_max = 1e-300)
         set_spacing!(placement, 0.01)
@@ -29,13 +28,13 @@ end
             @test e isa InterruptException
             @test 0 <= late < 2
         end
-        # The state is that of a run stopped by a monitor.
+        # The state is that of a run that a monitor has stopped.
         @test node_count(placement) > 9000
         @test run!(set!(placement; steps = 20)) in (:ok, :not_converged)
         set_monitor!((_...) -> true, placement)
         @test run!(placement) === :stopped
 
-        # Ctrl-C also ends a user function that takes long.
+        # Ctrl-C also ends a long function of the user.
         set_monitor!(placement, nothing)
         set_spacing!(x -> (sleep(10); fill(0.1, size(x, 2))), placement)
         e, late = interrupted(() -> run!(placement))

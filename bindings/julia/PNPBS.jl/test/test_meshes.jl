@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of distributed meshes of one rank.
+# Tests of distributed meshes on one rank.
 include("mesh_checks.jl")
 
 placed_with(domain, d) = (p = set_spacing!(Placement(domain; steps = 20), d); run!(p); p)
@@ -27,7 +27,7 @@ placed_with(domain, d) = (p = set_spacing!(Placement(domain; steps = 20), d); ru
         @test isempty(mesh.shared_nodes) && isempty(mesh.sharing_ranks)
         @test all(mesh.element_tags .== 0) && all(mesh.facet_owners .== 0)
 
-        # There is nothing to close, and there are no other ranks.
+        # The mesh needs no closing, and one rank has no ghosts.
         @test length(context.children) == 2
         more = DistributedMesh(placement; ghost_layers = 16)
         @test more.elements == mesh.elements && more.ids == mesh.ids
@@ -83,7 +83,7 @@ end
         @test element_tags(placement) == fill(4, size(tetrahedra(placement), 2))
         @test size(mesh.elements, 1) == 4 && sum(measures(mesh)) ≈ 2
         @test mesh.facet_inner == (mesh.facet_tags .== 6) && any(mesh.facet_inner)
-        # The facets are counter-clockwise seen from outside, so that together they enclose the box.
+        # They are counter-clockwise as seen from outside, so together they enclose the box.
         x = mesh.coordinates
         enclosed(facets) = sum(measure_of((x[:, k] for k in facet)...) for facet in eachcol(facets))
         @test enclosed(mesh.facets[:, mesh.facet_tags .== 5]) ≈ 2

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of the package itself: names, tables, and the library that it loads.
+# Tests of the package itself: names, tables, and the choice of the library.
 
-# Returns the output of a program in a separate process, as this process has loaded its library
-# already.
+# Returns the output of a program in a new process, because this process has loaded its library.
 function in_another_process(program; library = "")
     command = `$(Base.julia_cmd()) --compiled-modules=no --startup-file=no -e $program`
     output = IOBuffer()
@@ -23,7 +22,7 @@ end
     functions = filter(is_call, names(raw, all = true))
     @test length(functions) >= 70
     @test all(name -> raw.symbol(name) != C_NULL, functions)
-    # The Pkg of this Julia version can read the project file.
+    # Pkg of this Julia version can read the project file.
     folder = dirname(@__DIR__)
     named = in_another_process("using Pkg; Pkg.activate(\"$folder\"); print(Pkg.project().name)")
     @test endswith(named, "PNPBS")
@@ -110,7 +109,7 @@ end
 end
 
 @testset "threads soon sleep while they wait" begin
-    # The test checks the setting for GCC's OpenMP, and that the environment does not keep it.
+    # The setting that GCC's OpenMP sees, and the environment after loading.
     spins(variables...) = withenv("OMP_WAIT_POLICY" => nothing, "GOMP_SPINCOUNT" => nothing,
                                   variables...) do
         in_another_process("""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of particles of one rank.
+# Tests of particles on one rank.
 
 # Returns the least distance of two particles over the mean of their d, from all pairs.
 function closest_of(particles)
@@ -24,7 +24,7 @@ function cube_inset(context)
     return placement, body
 end
 
-# Checks the particles of a body with measure 1.
+# Checks the particles of a body whose measure is 1.
 function check_particles(placement, body)
     particles = Particles(placement, body)
     n = particles.count

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of the recipes for Plots.jl, with RecipesBase if it is installed and otherwise with the
-# stand-in in this folder. The use of the recipes by Plots.jl is not tested.
+# Tests of the recipes for Plots.jl, with RecipesBase if it is installed, otherwise with the
+# stand-in next to this file. Plots.jl itself is not used.
 push!(LOAD_PATH, joinpath(@__DIR__, "stand_in"))
 import RecipesBase
 
-# Julia 1.9 and later load the extension themselves if packages come from a project.
+# Julia 1.9 and later load the extension automatically if the packages come from a project.
 hasmethod(RecipesBase.apply_recipe, Tuple{Dict{Symbol,Any},Domain}) ||
     include("../ext/PNPBSRecipesBaseExt.jl")
 pop!(LOAD_PATH)
-# Returns what Plots.jl returns: Options of recipes are not attributes.
+# Plots.jl defines that options of recipes are not attributes; this definition replaces it.
 isempty(methods(RecipesBase.is_key_supported)) &&
     @eval RecipesBase.is_key_supported(key::Symbol) = key !== :edges
 
 series_of(object; attributes...) =
     RecipesBase.apply_recipe(Dict{Symbol,Any}(attributes), object)
 
-# Returns the segments of a path with gaps, as pairs of points.
+# Returns the segments of an interrupted path as pairs of points.
 function segments_of(x, y)
     @test length(x) == length(y) && length(x) % 3 == 0
     @test all(isnan, x[3:3:end]) && all(isnan, y[3:3:end])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of results against counts and values that follow from the points alone.
+# Tests of results against values that are recomputed from the points alone.
 
 function pairs_within(points, spacing, radius)
     n = size(points, 2)
@@ -23,8 +23,8 @@ end
         @test length(unique(placed.ids)) == n
         @test placed.spacing ≈ graded(placed.points)
 
-        # By Euler's formula n nodes with b on the boundary of a domain without holes have 2n - b -
-        # 2 triangles.
+        # By Euler's formula, n nodes, b of them on the boundary of a domain without holes, form 2n
+        # - b - 2 triangles.
         corners = triangles(placement)
         b = count(!=(0), placed.tags)
         @test size(corners) == (3, 2n - b - 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of shapes that GDAL reads. The build says whether a library for them exists.
+# Tests of geographic shapes. The build defines whether their library exists.
 const COAST = """{"type": "Feature", "properties": {"name": "shore"}, "geometry":
     {"type": "Polygon", "coordinates": [[[18, 54], [20, 54], [20, 55], [18, 55], [18, 54]]]}}"""
 const COAST_CORNERS = [18.0 20 20 18; 54 54 55 55]
@@ -27,16 +27,15 @@ function test_shapes_of(folder)
         placement = set_spacing!(Placement(domain; steps = 20), 10.0)
         run!(placement)
         placed = nodes(placement).points
-        # Sides are straight in the projection, so the northern one extends to 55.004 degrees.
+        # Sides are straight in the projection, so the northern one reaches 55.004 degrees.
         degrees = to_degrees(shapes, placed)
         @test all(17.999 .< degrees[1, :] .< 20.001) && all(53.98 .< degrees[2, :] .< 55.01)
         corners = from_degrees(shapes, COAST_CORNERS)
         @test all(minimum(sum(abs2, placed .- corners[:, k], dims = 1)) < 1e-18 for k in 1:4)
-        @test COAST_CORNERS[1] == 18  # the argument is unchanged
+        @test COAST_CORNERS[1] == 18  # the argument does not change
         write_prj(shapes, joinpath(folder, "nodes.vtu"))
         @test read(joinpath(folder, "nodes.prj"), String) == told.prj
-        # The point is not one of an error.
-        @test explain(shapes, "at (500, 700)") == "at (500, 700)"
+        @test explain(shapes, "at (500, 700)") == "at (500, 700)"  # this text is no error message
         @test fails(() -> add_shapes!(domain, shapes; corner_angle = 200), :error_argument,
                     "corner_angle")
         @test_throws DimensionMismatch to_degrees(shapes, zeros(3, 2))
@@ -52,7 +51,7 @@ function test_shapes_of(folder)
     @test occursin("GDAL: ", geo_build_info())
 end
 
-# Tests a grid with the values 3 longitude + latitude. A file beside it defines degrees as its unit.
+# A grid with the values 3 longitude + latitude. The file next to it defines degrees.
 function test_grids_of(folder)
     path = joinpath(folder, "depth.asc")
     rows = [join((3 * (17 + 0.5i) + 56 - 0.5j for i in 0:8), " ") for j in 0:6]
@@ -69,7 +68,7 @@ function test_grids_of(folder)
         @test inside_grid(depth, [corners[:, 1] corners[:, 1] .+ 1e6]) == [true, false]
         @test all(grid_extent(depth)[1] .< low) && all(high .< grid_extent(depth)[2])
         @test_throws DimensionMismatch grid_values(depth, zeros(3, 2))
-        @test all(1e-5 .< grid_slopes(depth, corners) .< 1e-4)  # 3 and 1 per degree
+        @test all(1e-5 .< grid_slopes(depth, corners) .< 1e-4)  # the slopes are 3 and 1 per degree
         @test_throws DimensionMismatch grid_slopes(depth, zeros(3, 2))
         close(depth)
         @test repr(depth) == "PNPBS.GeoGrid(closed)"

@@ -9,11 +9,11 @@ function tetrahedron_volume(points, corners)
     return determinant(b - a, c - a, d - a) / 6
 end
 
-# Returns the volume that triangles enclose, which are counter-clockwise seen from outside.
+# Returns the volume inside triangles that are counter-clockwise as seen from outside.
 enclosed(points, triangles) =
     sum(determinant((points[:, k] for k in triangles[:, t])...) for t in 1:size(triangles, 2)) / 6
 
-# Returns the sides of triangles as pairs of nodes.
+# Returns the directed sides of triangles.
 sides(triangles) = [(corners[k], corners[mod1(k + 1, 3)])
                     for corners in eachcol(triangles) for k in 1:3]
 
@@ -60,7 +60,7 @@ end
         body = add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4,
                             feature_angle = 30)
         @test measure(body) ≈ 1 / 6
-        # A smaller tetrahedron lies inside, and a point removes its inside.
+        # Inside it is a smaller tetrahedron, whose inside a hole point removes.
         add_surface!(body, 0.25 .* VERTICES .+ 0.1, FACES; role = :inner)
         @test measure(body) ≈ 1 / 6
         @test measure(set_filled!(body, false)) ≈ (1 + 0.25^2) * (1.5 + sqrt(0.75))
@@ -77,7 +77,7 @@ end
             @test measure(read_surface!(Domain(context; dim = 3), path)) ≈ 1 / 6
         end
         @test fails(() -> read_surface!(body, "/none.stl"; role = :inner), :error_file, "/none.stl")
-        # A Gmsh file has a named side. Its tag identifies the sides of an inner surface.
+        # A mesh of Gmsh with a named side. The tag identifies the sides of an inner surface.
         mktempdir() do folder
             path = joinpath(folder, "body.msh")
             row(columns) = join(columns, " ")
@@ -99,7 +99,7 @@ end
         end
         @test fails(() -> set_role!(body, 0, :inner), :error_argument, "tag")
         @test fails(() -> read_msh!(body, "/none.msh"), :error_file, "/none.msh")
-        # Every face has its own tag.
+        # Every face has a tag of its own.
         placement = placed_in(add_surface!(Domain(context; dim = 3), VERTICES, FACES; tags = 1:4),
                               0.3)
         points = nodes(placement).points
@@ -159,7 +159,7 @@ end
         filled = sum(tetrahedron_volume(points, corners[:, k]) for k in 1:size(corners, 2))
         around, tags = boundary_triangles(placement)
         @test fit_together(around) && enclosed(points, around) ≈ filled
-        # Chords make the cavity smaller.
+        # Chords make the cavity smaller, so the elements fill more than the domain.
         @test measure(domain) < filled < 1.02measure(domain)
         inward = around[:, tags .== 4]
         radii = sqrt.(sum(abs2, points[:, vec(inward)], dims = 1))
@@ -187,7 +187,7 @@ end
     end
 end
 
-# The function stays alive, although the domain is closed and has no references.
+# The functions stay alive after the domains are closed and collected.
 @testset "offsets in space" begin
     Context() do context
         box = add_box!(Domain(context; dim = 3), (0, 0, 0), (1, 1, 1))
@@ -222,8 +222,7 @@ end
         low_half = count(placed.points[3, :] .< 0.5)
         @test low_half > 2 * (node_count(placement) - low_half)
 
-        # Values at nodes are interpolated linearly on tetrahedra, so that a linear function is
-        # preserved.
+        # The spacing is linear in the tetrahedra, so a linear spacing is preserved.
         set_spacing!(placement, 0.2 .+ 0.1 .* placed.points[1, :])
         run!(placement)
         placed = nodes(placement)
@@ -317,7 +316,7 @@ end
         points, corners = nodes(placement).points, triangles(placement)
         @test size(points) == (3, node_count(placement))
         @test all(x -> abs(sqrt(sum(abs2, x)) - 1) < 1e-15, eachcol(points))
-        # The determinants are those of the tetrahedra from the centre to the triangles.
+        # The triangles form positive tetrahedra with the centre.
         @test all(k -> determinant((points[:, c] for c in k)...) > 0, eachcol(corners))
         edges = Set(minmax(ends...) for ends in sides(corners))
         @test size(points, 2) - length(edges) + size(corners, 2) == 1

@@ -10,11 +10,11 @@ using SparseArrays
     A = sparse(rows, [1.5, 2.5, 3.5, 4.5, 5.5])
     @test A isa SparseMatrixCSC{Float64,Int64} && A == [2.5 0 1.5; 0 0 0; 4.5 3.5 5.5]
     @test all(issorted(rowvals(A)[nzrange(A, j)]) for j in 1:3)
-    # The rows are unchanged, and zeros remain entries.
+    # The rows do not change, and zeros remain stored entries.
     @test rows.entries == [3, 1, 2, 1, 3]
     @test nnz(sparse(rows, zeros(5))) == 5
 
-    # Columns of ghosts may be in no row. Fewer columns than the entries need are an error.
+    # Columns of ghosts may have no entry. Fewer columns than the entries require are an error.
     @test sparse(rows, 1:5; columns = 5) == [2 0 1 0 0; 0 0 0 0 0; 4 3 5 0 0]
     few = thrown(() -> sparse(CompressedRows([1, 2], [4])))
     @test few isa ArgumentError && occursin("column 4 of 1", few.msg)
@@ -36,8 +36,7 @@ end
         @test size(pattern) == (length(lists), length(lists))
         @test nnz(pattern) == length(lists.entries) && pattern == pattern'
         @test all(findall(pattern[i, :]) == sort(lists[i]) for i in eachindex(lists))
-        # Every triangle contributes one entry for each of its three corners and the next neighbour
-        # in the star.
+        # The flags count every triangle once at each of its corners.
         @test sum(sparse(around...)) == 3 * size(triangles(placement), 2)
     end
 end

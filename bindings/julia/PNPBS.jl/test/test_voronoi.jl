@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests of Voronoi cells of one rank.
+# Tests of Voronoi cells on one rank.
 
 function check_cells(placement)
     placed, cells = nodes(placement), VoronoiCells(placement)

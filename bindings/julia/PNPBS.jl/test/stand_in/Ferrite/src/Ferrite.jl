@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-A stand-in for Ferrite where it cannot be installed: of its grids what PNPBS uses, under the same
-names. It is for tests of the grids, and for nothing else.
+A stand-in for Ferrite, for tests on machines without it. It defines the parts of grids that PNPBS
+uses, with the same names.
 """
 module Ferrite
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-A stand-in for MPI.jl where none can be installed: what PNPBS and its examples use of it, under the
-same names, on Open MPI. It is for tests of how they meet MPI.jl, and for nothing else.
+A stand-in for MPI.jl, for tests on machines without it. It defines the parts that PNPBS and its
+examples use, with the same names, and calls Open MPI.
 """
 module MPI
 
@@ -28,8 +28,7 @@ Comm_rank(comm) = OpenMPI.number(:MPI_Comm_rank, comm.val)
 Comm_size(comm) = OpenMPI.number(:MPI_Comm_size, comm.val)
 Get_library_version() = OpenMPI.version()
 
-# A reduction of one number, and messages, in the forms without keywords that MPI.jl 0.15 to 0.20
-# have.
+# A reduction of one number and messages, in the forms without keywords of MPI.jl 0.15 to 0.20.
 Allreduce(value, op, comm) = OpenMPI.reduce_over_ranks(value, op, comm.val)
 
 add_finalize_hook!(f) = push!(finalize_hooks, f)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """
-A stand-in for RecipesBase where it cannot be installed: of its `@recipe` and `@series` what PNPBS
-uses, under the same names. It is for tests of the recipes, and for nothing else.
+A stand-in for RecipesBase, for tests on machines without it. It defines the parts of `@recipe` and
+`@series` that PNPBS uses, with the same names.
 """
 module RecipesBase
 
@@ -15,7 +15,7 @@ end
 function apply_recipe end
 function is_key_supported end
 
-# `key --> value` sets an attribute that the user has not set. `key := value` sets it in any case.
+# `key --> value` sets an attribute unless the user has set it; `key := value` always sets it.
 replaced(e) = e
 function replaced(e::Expr)
     e.head === :(-->) && return :(get!(plotattributes, $(QuoteNode(e.args[1])), $(e.args[2])))
