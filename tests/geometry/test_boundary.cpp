@@ -428,7 +428,7 @@ START_TEST(callbacks_that_change_their_mind) {
       0, 2 * pi, 1);
   domain.check();
   broken = true;
-  expect_error(pnpbs::ErrorKind::argument, {"curve 0: the callback gave (", "nan"},
+  expect_error(pnpbs::ErrorKind::argument, {"curve 0: the callback returned (", "nan"},
                [&] { pnpbs::discretize_boundary(domain, constant(0.1)); });
 }
 END_TEST

@@ -125,7 +125,7 @@ START_TEST(triangles_without_area_go_and_leave_the_surface_closed) {
   VolumeDomain domain;
   check_soup(soup, domain);
   ck_assert(warns(
-      domain, "2 triangles have no area to speak of and are left out; the first is triangle 5 of"));
+      domain, "2 triangles have a negligible area and are left out; the first is triangle 5 of"));
   ck_assert(is_closed(domain.mesh()));
   ck_assert_uint_eq(domain.mesh().facets.size(), 6);
   expect_near(domain.volume(), 1.0 / 6, 1e-15);
@@ -335,8 +335,8 @@ START_TEST(a_moebius_strip_is_refused) {
   VolumeDomain domain;
   domain.add_box({-2, -2, -2}, {2, 2, 2}, 1);
   soup.add_to(domain, SurfaceRole::inner);
-  expect_domain_error(domain, {"the surface has but one side, as a Moebius strip has",
-                               "of surface 0", "at vertex"});
+  expect_domain_error(
+      domain, {"the surface has one side only, like a Moebius strip", "of surface 0", "at vertex"});
 }
 END_TEST
 
