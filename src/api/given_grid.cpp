@@ -108,7 +108,7 @@ void require_spacings(const DegreeGrid& grid) {
     if (std::fabs(value(row, last) - value(row, 0)) > kSinglePrecision * value(row, 0))
       throw Error(ErrorKind::spacing,
                   value_text(grid, row, 0) + " and " + value_text(grid, row, last) + " are both" +
-                      place_text(grid, row, 0) + ", a full turn apart: a place has one spacing");
+                      place_text(grid, row, 0) + ", a full turn apart: a point has one spacing");
 }
 
 }  // namespace
