@@ -51,7 +51,7 @@ std::int64_t check_grid(const GridArguments& grid) {
       throw Error(ErrorKind::argument,
                   "argument step" + at + number_text(grid.step[k]) + " must be greater than 0");
     if (n > std::numeric_limits<std::int64_t>::max() / size)
-      throw Error(ErrorKind::argument, "argument size: more values than can be counted");
+      throw Error(ErrorKind::argument, "argument size: the number of values exceeds 2^63 - 1");
     n *= size;
   }
   return n;

@@ -74,7 +74,7 @@ void ask_for_what_files_need(Arguments& arguments) {
     const std::string name = format ? format->name : "";
     if (name != "peridigm" && name != "lammps" && name != "hdf5") continue;
     if (arguments.surfaces_only)
-      refuse("a ." + name + " file is of bodies, and --surfaces-only leaves nothing inside");
+      refuse("a ." + name + " file is for bodies, and --surfaces-only leaves nothing inside");
     if (name != "peridigm" && !arguments.density)
       refuse("a ." + name + " file needs the density of particles: --density");
     arguments.volumes = true;

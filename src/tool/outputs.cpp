@@ -124,7 +124,7 @@ void Outputs::check_particles() const {
       for (const std::string_view name : {"pvtu", "ele", "face"})
         if (output.format->name == name)
           throw BadInput("--output: a ." + output.format->name +
-                         " file has no place for particles, which have no elements: '" +
+                         " file cannot contain particles, which have no elements: '" +
                          output.file.path() + "'");
 }
 

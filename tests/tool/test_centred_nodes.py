@@ -99,7 +99,7 @@ class CentredNodes(CommandTest):
         refused("--surfaces-only", *ball, "--surfaces-only")
         refused("name the resolution", *ball, "--repair", "auto")
         refused("--region", *plane, "--spacing", "0.1", "--region", "0.1,0.1:3")
-        refused("no place for particles", *plane, "--spacing", "0.1", "-o", "a.pvtu")
+        refused("cannot contain particles", *plane, "--spacing", "0.1", "-o", "a.pvtu")
         refused("negative at none", *plane, "--spacing", "3")
         _, err = self.run_command(*plane, "--spacing", "1", "--nodes-at", "corners", code=BAD_INPUT)
         self.assertIn("known: boundary, centers, walls", err.decode())

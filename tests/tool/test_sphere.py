@@ -176,7 +176,7 @@ class WholeSphere(CommandTest):
             self.assertIn(words, self.refuse("--sphere", str(RADIUS), "--spacing", spacing))
         self.assertIn("--domain is missing", self.refuse("--spacing", "1"))
         self.assertIn("--bubbles exclude", self.refuse("--sphere", "1", "--spacing", "0.3", "--bubbles"))
-        self.assertIn("none on a sphere", self.refuse("--sphere", "1", "--spacing", "0.3", "--density", "1", "-q",
+        self.assertIn("not on a sphere", self.refuse("--sphere", "1", "--spacing", "0.3", "--density", "1", "-q",
                                                       "--output", "gas.hdf5"))
 
 
