@@ -215,7 +215,7 @@ START_TEST(as_they_are) {
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), "none", NULL, NULL);
   expect_points(it.domain, 4, bay, 1);
   expect_name(it.shapes, "WGS 84", "degree");
-  ck_assert(has_note(it.shapes, "as asked"));
+  ck_assert(has_note(it.shapes, "as requested"));
   geo_end(&it);
 }
 END_TEST
