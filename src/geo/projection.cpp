@@ -173,8 +173,7 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
                 "argument projection = '" + request +
                     "': the file has no coordinate reference system, so its coordinates cannot be "
                     "projected: add a .prj beside a shapefile, or set it by ogr2ogr -a_srs "
-                    "EPSG:4326 if they "
-                    "are longitude and latitude");
+                    "EPSG:4326 if they are longitude and latitude");
   if (const auto outside = sphere_seen_from(request)) {
     target_ = ReferenceSystem::stereographic(data_, *outside);
     on_sphere_ = true;

@@ -142,7 +142,7 @@ void Outputs::check_writable() const {
         output.file.is_standard_output() && !ranks_.launched() && ::isatty(STDOUT_FILENO);
     if (to_terminal && output.format && output.format->binary) {
       throw BadInput("a ." + output.format->name +
-                     " file would garble the terminal; redirect standard output");
+                     " file is binary and cannot go to a terminal: redirect standard output");
     }
   }
 }

@@ -97,7 +97,7 @@ class CentredNodes(CommandTest):
         refused("needs d as a formula", *plane, "--spacing", "auto")
         refused("--nodes cannot scale it", *plane, "--spacing", "0.1", "--nodes", "100")
         refused("--surfaces-only", *ball, "--surfaces-only")
-        refused("name the resolution", *ball, "--repair", "auto")
+        refused("give the resolution", *ball, "--repair", "auto")
         refused("--region", *plane, "--spacing", "0.1", "--region", "0.1,0.1:3")
         refused("cannot contain particles", *plane, "--spacing", "0.1", "-o", "a.pvtu")
         refused("negative at none", *plane, "--spacing", "3")
