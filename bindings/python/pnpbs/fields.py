@@ -71,7 +71,7 @@ class Fields(PlacementHandle):
             return
         # The library hears of it, and so do the other ranks, which would wait otherwise.
         getattr(library(), f"pnpbs_placement_{name}")(self._live(), -1, 1, None)
-        raise ValueError("values must be an array of float64, in the order of C, that can be changed")
+        raise ValueError("values must be a writable, C-contiguous array of float64")
 
     # Any: a float of (n,) values, an array of others, which their types do not tell apart.
     def sum(self, values: ArrayLike) -> Any:

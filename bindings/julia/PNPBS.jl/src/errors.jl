@@ -45,7 +45,7 @@ end
 # Checked by the length here, so that the message tells what the caller knows.
 function require_length(values, n, what)
     length(values) == n ||
-        throw(DimensionMismatch("$what has length $(length(values)); $n expected"))
+        throw(DimensionMismatch("$what has length $(length(values)); $n was expected"))
     return nothing
 end
 
