@@ -50,7 +50,7 @@ std::string projection_beside(const std::string& path) {
 
 void refuse_to_replace(const std::string& input, const std::string& path) {
   if (!input.empty() && input != "-" && same_file(input, path))
-    throw BadInput("'" + path + "' would replace what is read: write to another file");
+    throw BadInput("'" + path + "' would overwrite an input file: write to another file");
 }
 
 std::string file_of_spacing(const Arguments& arguments) {

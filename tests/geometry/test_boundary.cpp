@@ -276,7 +276,7 @@ START_TEST(chords_that_would_cut_are_halved) {
   expect_valid(boundary);
   ck_assert_uint_ge(boundary.facets.size(), 30);
   ck_assert_uint_le(boundary.facets.size(), 150);
-  ck_assert(warns(boundary, "would have cut across"));
+  ck_assert(warns(boundary, "would have crossed others"));
 }
 END_TEST
 

@@ -167,7 +167,7 @@ class Shapes(ShapesTest):
         prj = self.folder / "land.prj"
         prj.write_text("the input's")
         message = self.refuse("--domain", "land.shp", "--spacing", "20", "--output", "land.vtu")
-        self.assertIn("land.prj' would replace what is read", message)
+        self.assertIn("land.prj' would overwrite an input file", message)
         self.assertEqual(prj.read_text(), "the input's")
         # What a file of GeoJSON has beside it is our own, of the run before.
         self.run_command("--domain", self.geojson(LAND), "--spacing", "20000", "--output", "land.vtu")
