@@ -122,7 +122,7 @@ void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_s
   edges = SurfaceEdges(surface);
   warnings.emplace_back(WarningCode::triangles_turned,
                         std::to_string(turns) + (turns == 1 ? " triangle was" : " triangles were") +
-                            " turned around to agree with the neighbours; the first is " + name,
+                            " reversed to be oriented as the neighbours are; the first is " + name,
                         turns);
 }
 

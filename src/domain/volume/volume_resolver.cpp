@@ -327,7 +327,7 @@ class Resolver {
     }
     if (names.empty()) return;
     result_.warnings.emplace_back(WarningCode::triangles_turned,
-                                  "inside out and turned around: " + list_text(names, 5),
+                                  "oriented inside out and reversed: " + list_text(names, 5),
                                   std::accumulate(turned.begin(), turned.end(), std::int64_t{0}));
   }
 
