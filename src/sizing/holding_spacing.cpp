@@ -137,9 +137,11 @@ Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& he
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   const auto nodes = static_cast<std::int64_t>(expected_nodes);
   return {WarningCode::not_conforming,
-          "the shape takes about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
-              rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ", and the " +
-              "given spacing means " + std::to_string(held.start_nodes) +
+          "the shape needs about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
+              rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) +
+              ", and the given "
+              "spacing would give " +
+              std::to_string(held.start_nodes) +
               ": set the option resolve, or a smaller spacing there",
           nodes, finest.d};
 }
