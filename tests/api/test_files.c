@@ -280,7 +280,7 @@ START_TEST(every_format_in_space) {
     snprintf(path, sizeof path, "a.%s", name);
     if (is_of_triangles(name)) {
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
-                "none of bodies", path);
+                "not for bodies", path);
       ++of_triangles;
       continue;
     }

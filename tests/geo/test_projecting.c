@@ -299,7 +299,7 @@ START_TEST(what_is_no_projection) {
   refuse(BAY, "EPSG:99999999", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:99999999", "EPSG:2180");
   refuse(BAY, "+proj=nonsense", NULL, PNPBS_ERROR_ARGUMENT, "+proj=nonsense", "auto");
   refuse(BAY, "https://example.org/x", NULL, PNPBS_ERROR_ARGUMENT, "https:", "names no projection");
-  refuse(BAY, "EPSG:4326", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:4326", "no distances");
+  refuse(BAY, "EPSG:4326", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:4326", "no lengths");
   refuse(BAY, "auto", "mile", PNPBS_ERROR_ARGUMENT, "mile", "m or km");
   refuse(BAY, "none", "km", PNPBS_ERROR_ARGUMENT, "km", "as they are");
 }

@@ -98,7 +98,7 @@ class WholeSphere(CommandTest):
         self.assertTrue(all_of_them < len(shown) < 1.2 * all_of_them, f"{len(shown)} of {all_of_them}")
         for view in ("0", "0,91", "maps"):
             self.assertIn("--view: expected LON,LAT", self.refuse("--sphere", "1", "--spacing", "1", "--view", view))
-        self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
+        self.assertIn("it needs --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
 
     def test_nodes_follow_the_spacing_beside_the_patch(self):
         """There d changes in the chart along the way that the last sweeps move nodes: they are measured where they are.
