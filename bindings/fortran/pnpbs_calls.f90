@@ -428,7 +428,7 @@ contains
     integer, intent(in) :: rows, needed
     character(len=80) :: numbers
     if (rows == needed) return
-    write (numbers, '(a, i0, a, i0, a)') ' has an extent of ', rows, ' where ', needed, ' is right'
+    write (numbers, '(a, i0, a, i0, a)') ' has an extent of ', rows, '; ', needed, ' was expected'
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 
@@ -439,7 +439,7 @@ contains
     integer, intent(in) :: rank_of_array, dim
     character(len=80) :: numbers
     if (rank_of_array == dim) return
-    write (numbers, '(a, i0, a, i0, a)') ' has rank ', rank_of_array, ' where ', dim, ' is right'
+    write (numbers, '(a, i0, a, i0, a)') ' has rank ', rank_of_array, '; ', dim, ' was expected'
     call self%refuse(PNPBS_ERROR_ARGUMENT, 'argument ' // name // trim(numbers))
   end subroutine
 

@@ -51,7 +51,7 @@ std::int64_t check_grid(const GridArguments& grid) {
       throw Error(ErrorKind::argument,
                   "argument step" + at + number_text(grid.step[k]) + " must be greater than 0");
     if (n > std::numeric_limits<std::int64_t>::max() / size)
-      throw Error(ErrorKind::argument, "argument size: more values than can be counted");
+      throw Error(ErrorKind::argument, "argument size: the number of values exceeds 2^63 - 1");
     n *= size;
   }
   return n;
@@ -108,7 +108,7 @@ void require_spacings(const DegreeGrid& grid) {
     if (std::fabs(value(row, last) - value(row, 0)) > kSinglePrecision * value(row, 0))
       throw Error(ErrorKind::spacing,
                   value_text(grid, row, 0) + " and " + value_text(grid, row, last) + " are both" +
-                      place_text(grid, row, 0) + ", a full turn apart: a place has one spacing");
+                      place_text(grid, row, 0) + ", a full turn apart: a point has one spacing");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::shared_ptr<ParticlesObject> made(const std::shared_ptr<PlacementObject>& pl
 void require_body(const NodalResults& results) {
   if (results.kind() == GeometryKind::surface)
     throw Error(ErrorKind::argument,
-                "argument placement has nodes on surfaces alone: no body is around them");
+                "argument placement has nodes on surfaces alone: particles need nodes in a body");
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ void require_shape(const PlaneDomain& domain) {
   if (domain.is_whole_sphere() && domain.curves().empty())
     throw Error(
         ErrorKind::argument,
-        "argument domain is a whole sphere without curves: it has none to measure distances "
-        "or any other shape from");
+        "argument domain is a whole sphere without curves: there is nothing to measure distances "
+        "from");
 }
 void require_shape(const VolumeDomain&) {}
 

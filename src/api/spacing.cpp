@@ -181,7 +181,7 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
     if (n != results.count())
       throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                            std::to_string(results.count()) +
-                                           " nodes, and every one has its value");
+                                           " nodes: give a value for each of them");
     if (n > 0) require_pointer(d, "d");
     for (std::int64_t i = 0; i < n; ++i)
       if (!std::isfinite(d[i]) || d[i] <= 0)

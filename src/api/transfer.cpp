@@ -27,11 +27,11 @@ void require_field(NodalResults& results, std::int64_t n, std::int64_t component
   results.prepare_order();
   if (components < 1)
     throw Error(ErrorKind::argument,
-                "argument components = " + std::to_string(components) + "; there is at least 1");
+                "argument components = " + std::to_string(components) + "; expected at least 1");
   if (n != results.count())
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                          std::to_string(results.count()) +
-                                         " nodes, and every one has its values");
+                                         " nodes: give values for each of them");
   if (n > 0) require_pointer(values, "values");
   for (std::int64_t k = 0; k < n * components; ++k)
     if (!std::isfinite(values[k]))

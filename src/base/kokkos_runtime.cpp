@@ -57,9 +57,11 @@ void check_environment() {
       int parsed = 0;
       if (name == number && !positive_integer(value, parsed) &&
           !(name != known_numbers[0] && value == "0"))
-        throw Error(ErrorKind::kokkos,
-                    "the environment variable " + name + " is \"" + value +
-                        "\"; Kokkos accepts a positive integer: unset or correct it");
+        throw Error(
+            ErrorKind::kokkos,
+            "the environment variable " + name + " is \"" + value + "\"; Kokkos accepts " +
+                (name == known_numbers[0] ? "a positive integer" : "an integer of 0 or more") +
+                ": unset or correct it");
     }
     for (const char* flag : known_flags) {
       const std::string allowed[] = {"0", "1", "true", "false", "yes", "no", "on", "off"};
@@ -149,7 +151,7 @@ void require_kokkos() {
   throw Error(ErrorKind::kokkos, Kokkos::is_finalized()
                                      ? "Kokkos has been finalised in this process: nothing can be "
                                        "computed any more"
-                                     : "Kokkos does not run");
+                                     : "Kokkos is not initialised");
 }
 
 bool kokkos_was_started() { return Kokkos::is_initialized() || Kokkos::is_finalized(); }

@@ -60,7 +60,8 @@ void NodeCheck<Dim>::check_ids() const {
 template <int Dim>
 void NodeCheck<Dim>::check_places() const {
   for_owned([&](std::int64_t i) {
-    if (!is_usable(position(i))) fail_check("node " + name(i) + " lies nowhere");
+    if (!is_usable(position(i)))
+      fail_check("node " + name(i) + " has coordinates that are not usable");
   });
   std::vector<PlacedId> nodes = gathered_by([](const PlacedId& node) {
     std::uint64_t hash = 0;
@@ -70,7 +71,8 @@ void NodeCheck<Dim>::check_places() const {
   std::ranges::sort(nodes, {}, &PlacedId::x);
   const auto twice = std::ranges::adjacent_find(nodes, {}, &PlacedId::x);
   if (twice != nodes.end())
-    fail_check("nodes " + text_of(twice[0]) + " and " + text_of(twice[1]) + " lie in one place");
+    fail_check("nodes " + text_of(twice[0]) + " and " + text_of(twice[1]) +
+               " lie at the same point");
 }
 
 template <int Dim>
@@ -120,8 +122,9 @@ void NodeCheck<Dim>::check_lists() const {
        redistribute(comm_, elsewhere, [](const ListedPair& listed) { return listed.owner; })) {
     const std::int64_t i = owned_node(pair.of);
     if (i < 0)
-      fail_check("node " + std::to_string(pair.listed) + " has node " + std::to_string(pair.of) +
-                 " in its adjacency list, which is not its owner's");
+      fail_check(
+          "node " + std::to_string(pair.listed) + " has node " + std::to_string(pair.of) +
+          " in its adjacency list, which the rank that was taken for its owner does not own");
     require_listed(i, pair.listed);
   }
 }

@@ -72,7 +72,7 @@ class NodeCheck {
     std::int64_t left_out = level_.left_out;
     for (std::size_t k = 0; k < times.size(); ++k)
       if (times[k] != 1 && !(times[k] == 0 && (may_lack(k) || left_out-- > 0)))
-        fail_check("the boundary's node " + point_text(where(k)) + " comes " +
+        fail_check("the boundary's node " + point_text(where(k)) + " occurs " +
                    std::to_string(times[k]) + " times");
   }
   // Returns the sum over all ranks, in multiples of 2^-40 `unit`, so that it does not depend on the

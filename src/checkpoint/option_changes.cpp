@@ -41,7 +41,7 @@ std::vector<LinePair> different_lines(const std::string& then, const std::string
 
 [[noreturn]] void refuse(const LinePair& pair, const std::string& remedy) {
   throw Error(ErrorKind::argument, "it was written with the option " + pair.then +
-                                       ", and now there is " + pair.now + ": " + remedy);
+                                       ", and the placement has " + pair.now + ": " + remedy);
 }
 
 // Throws if the change is not allowed.
@@ -51,10 +51,10 @@ void require_requested(const LinePair& pair, const Options& now) {
     refuse(pair, "set the same options; they may be changed once it is read");
   if (std::ranges::find(kOfSpacing, std::string_view(name)) != std::end(kOfSpacing))
     refuse(pair,
-           "set the same one; as it decides on the spacing, it cannot be changed with a restart");
+           "set the same one; the spacing depends on it, so it cannot be changed with a restart");
   if (!now.is_given(name.c_str()))
     refuse(pair, "set " + name + "=" + value_in(pair.then) +
-                     " to go on as before, or another value to change it from here on");
+                     " to continue as before, or another value to change it from here on");
 }
 
 }  // namespace

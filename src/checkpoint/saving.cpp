@@ -65,15 +65,15 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
     inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
   const MessageText which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
   if (node.id < 0 || node.id >= state.next_id)
-    damaged(which + ": ids are from 0 up to " + std::to_string(state.next_id) +
-            " without it: it is damaged");
+    damaged(which + ": ids must be at least 0 and less than " + std::to_string(state.next_id) +
+            ": it is damaged");
   if (!inside || (node.carrier == Carrier::free &&
                   level.map().leaf_outside(level.map().tree().leaf_at(node.x))))
     damaged(which + " is outside of the domain: it is damaged");
   if (!is_usable(node.v) || !is_usable(node.reference) || !(node.d > 0) || !is_usable(node.d))
     damaged(which +
-            ": its velocity, reference position or spacing is no number that a node can "
-            "have: it is damaged");
+            ": its velocity, reference position or spacing is not a possible value: it "
+            "is damaged");
 }
 
 // Throws if an id occurs twice on all ranks together. Collective.
@@ -89,7 +89,7 @@ void require_unique_ids(const Communicator& comm, const std::vector<SavedNode<Di
     std::sort(here.begin(), here.end());
     const auto twice = std::adjacent_find(here.begin(), here.end());
     if (twice != here.end())
-      damaged("node " + std::to_string(*twice) + " comes twice: it is damaged");
+      damaged("node " + std::to_string(*twice) + " occurs twice: it is damaged");
   });
 }
 
@@ -102,7 +102,7 @@ void put_saved_nodes(Level<Dim>& level, const SavedState& state,
     for (const SavedNode<Dim>& one : saved)
       if (!is_usable(one.node.x))
         damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
-                " is nowhere: it is damaged");
+                " has coordinates that are not usable: it is damaged");
   });
   if (level.distributed())
     saved = redistribute(
@@ -127,9 +127,10 @@ void require_same_boundary(const Level<Dim>& level, const std::vector<SavedNode<
   collective_try(*level.comm, [&] {
     for (const SavedNode<Dim>& one : saved)
       if (!fits_geometry(level.geometry, one.node))
-        damaged("node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
-                " is not where the boundary of this domain has one: it is damaged, or a curve that "
-                "a callback gives is another one");
+        damaged(
+            "node " + std::to_string(one.node.id) + " at " + point_text(one.node.x) +
+            " is not at a node of the boundary of this domain: it is damaged, or a curve given by "
+            "a callback has changed");
   });
 }
 
@@ -143,7 +144,7 @@ void require_same_spacing(const Level<Dim>& level, const std::vector<SavedNode<D
       if (here == saved[k].spacing) continue;
       throw Error(ErrorKind::spacing, "the spacing is not the one it was written with: at " +
                                           point_text(saved[k].node.x) + " it is " +
-                                          number_text(here) + ", and was " +
+                                          number_text(here) + ", and it was " +
                                           number_text(saved[k].spacing));
     }
   });
@@ -209,9 +210,9 @@ std::vector<GrowthSource<Dim>> sources_in(const std::vector<double>& table, cons
 template <int Dim>
 LocalReduction<Dim> held_in(const SavedState& state) {
   if (!(state.least_before_held >= 0) || !is_usable(state.least_before_held))
-    damaged("the least d where it is held down is " + number_text(state.least_before_held) +
+    damaged("the smallest d before its reduction is " + number_text(state.least_before_held) +
             ": it is damaged");
-  return {sources_in<Dim>(state.held, "places where d is held down"), state.held_rounds,
+  return {sources_in<Dim>(state.held, "places where d is reduced"), state.held_rounds,
           state.start_nodes_before_reduction, state.least_before_held};
 }
 

@@ -27,7 +27,7 @@ void require_near_origin(double size, const Point<Dim>& x) {
       reject_domain("the domain's size is " + number_text(size) + ", less than " +
                     number_text(kSmallestRelativeSize) +
                     " of its distance from the origin, as at " + point_text(x) +
-                    ": move it nearer");
+                    ": move the domain closer to the origin");
 }
 
 }  // namespace pnpbs

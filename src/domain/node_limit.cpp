@@ -22,7 +22,7 @@ std::string bytes_text(double bytes) {
 
 std::string about_resolve(const NodeLimit& limit) {
   if (!limit.resolves) return "";
-  return "; the option resolve holds d down at thin walls, narrow gaps and sharp edges: repair the "
+  return "; the option resolve reduces d at thin walls, narrow gaps and sharp edges: repair the "
          "geometry there, or leave the option at 0";
 }
 

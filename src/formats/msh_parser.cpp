@@ -233,7 +233,7 @@ class MshParser {
     if (dimension == 0) return;
     const std::int64_t bounds = fields_.count("entities that bound it", kTextNumber, kInt);
     for (std::int64_t i = 0; i < bounds; ++i) {
-      const std::int32_t side = positive(fields_.int32("the tag of what bounds it"));
+      const std::int32_t side = positive(fields_.int32("the tag of an entity that bounds it"));
       regions_.add_bound(dimension, side, group != 0);
     }
   }

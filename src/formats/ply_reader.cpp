@@ -98,7 +98,8 @@ PlyProperty read_property(TextFields& fields) {
     fields = ahead;
     property.is_list = true;
     property.count_type = read_type(fields);
-    if (!is_integer(property.count_type)) fields.fail("a list is counted by an integer type");
+    if (!is_integer(property.count_type))
+      fields.fail("the length of a list has a real type, expected an integer type");
   }
   property.type = read_type(fields);
   property.name = fields.required("the name of a property");

@@ -68,7 +68,7 @@ std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t>
   const auto problem = [&given](const std::string& what) {
     return "a polygon of " + std::to_string(given.size()) + " corners " + what;
   };
-  if (given.size() < 3) return problem("is none, expected 3 or more");
+  if (given.size() < 3) return problem("has no area, expected 3 corners or more");
   const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
     surface.triangles.push_back({a, b, c});
     surface.tags.push_back(tag);
@@ -86,7 +86,9 @@ std::string add_polygon(SurfaceTriangles& surface, std::span<const std::int32_t>
   const Point<3> normal = area_vector(surface.vertices, corners);
   if (normal == Point<3>{}) return problem("has no area");
   const auto triangles = polygon_triangles(projected(surface.vertices, corners, normal));
-  if (triangles.empty()) return problem("crosses or touches itself, or is too intricate");
+  if (triangles.empty())
+    return problem(
+        "cannot be divided into triangles: it crosses or touches itself, or is too intricate");
   for (const auto& [a, b, c] : triangles)
     add(corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)],
         corners[static_cast<std::size_t>(c)]);

@@ -178,8 +178,8 @@ bool begins_as_text(std::string_view bytes) {
                                  const std::string& name) {
   const std::string what =
       begins_as_text(bytes.substr(0, bytes.find('\0')))
-          ? ": is binary, though its header begins with 'solid' as text does (a zero byte comes "
-            "in it), and "
+          ? ": is binary, though its header begins with 'solid' as text does (it contains a zero "
+            "byte), and "
           : ": does not begin with 'solid' as text does, and as a binary file ";
   const std::string there = std::to_string(bytes.size()) + " bytes";
   if (bytes.size() < kBeforeTriangles)
@@ -193,7 +193,7 @@ bool begins_as_text(std::string_view bytes) {
           : "";
   throw Error(ErrorKind::file, name + what + "it has " + there + ", expected " +
                                    std::to_string(expected) + " for the " + std::to_string(count) +
-                                   " triangles that it promises" + whole);
+                                   " triangles that its header announces" + whole);
 }
 
 }  // namespace

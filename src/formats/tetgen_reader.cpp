@@ -32,7 +32,7 @@ class FacetParser {
     const std::int64_t polygons = read_count(fields_, "polygons");
     if (polygons == 0) fields_.fail("the facet has no polygon");
     if (read_optional(fields_, "the number of holes", kMaxHoles) > 0)
-      fields_.fail("the facet has holes: expected polygons without any, into which to divide it");
+      fields_.fail("the facet has holes: divide it into polygons without holes");
     const std::int32_t tag = read_tag();
     read_lines(fields_, polygons, "polygons", [&] {
       read_corners();

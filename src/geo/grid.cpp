@@ -71,7 +71,7 @@ Grid::Grid(const GridRequest& request) : file_(request.path, request.variable) {
       std::make_unique<RasterValues>([this](const CellBox& cells) { return file_.read(cells); },
                                      window_, columns, rows, RasterValues::Memory{});
   if (!values_->has_data())
-    throw Error(ErrorKind::spacing, name_ + ": it has no data where the domain is");
+    throw Error(ErrorKind::spacing, name_ + ": it has no data in the domain");
 }
 
 void Grid::choose_system(const GridRequest& request, const ReferenceSystem& system) {
@@ -113,10 +113,10 @@ CellBox Grid::window_for(const GridRequest& request) const {
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     const double end = static_cast<double>(counts[k] - 1);
     if (!(box.low[k] <= end + 0.5 && box.high[k] >= -0.5))
-      throw Error(ErrorKind::spacing, name_ + ": the grid lies outside of the domain, " +
-                                          extents_text(extent_) + ", and the domain reaches " +
-                                          extents_text(request.part) +
-                                          (forward_ ? "" : ": are they in the same system?"));
+      throw Error(ErrorKind::spacing,
+                  name_ + ": the grid lies outside of the domain, " + extents_text(extent_) +
+                      ", and the domain reaches " + extents_text(request.part) +
+                      (forward_ ? "" : ": are they in the same coordinate reference system?"));
     const double pad = 2 + more * (box.high[k] - box.low[k]);
     first[k] = static_cast<std::int64_t>(std::clamp(std::floor(box.low[k] - pad), 0.0, end));
     last[k] = static_cast<std::int64_t>(std::clamp(std::ceil(box.high[k] + pad), 0.0, end));
@@ -142,7 +142,7 @@ void Grid::evaluate(const std::vector<Point<2>>& points, double* values,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!is_somewhere(cells[i]))
       throw Error(ErrorKind::spacing,
-                  point_text(points[i]) + " has no place in the coordinates of " + name_);
+                  point_text(points[i]) + " cannot be transformed to the coordinates of " + name_);
     std::int64_t cell[2];
     double fraction[2];
     bool within = true;

@@ -182,7 +182,7 @@ class LineClassifier {
         throw Error(ErrorKind::domain, std::to_string(degree_[p]) +
                                            " lines that are closed meet at " +
                                            where(static_cast<Index>(p)) +
-                                           ": they do not define an interior; polygons do");
+                                           ": they do not define an interior: use polygons");
     std::size_t line = 0;
     for (Edge& edge : edges_) {
       if (!edge.of_line) continue;

@@ -270,7 +270,7 @@ pnpbs_status pnpbs_geo_write_prj(pnpbs_geo_shapes shapes, const char* results) {
     if (object.prj.empty())
       throw Error(ErrorKind::state, object.shapes.on_sphere()
                                         ? "on a sphere there is no projection"
-                                        : "the file does not say what its coordinates are");
+                                        : "the file has no coordinate reference system");
     write_text(std::filesystem::path(results).replace_extension(".prj").string(), object.prj);
   });
 }

@@ -127,10 +127,10 @@ ReferenceSystem local_projection(const ReferenceSystem& data,
     if (south < 0 && north > 0)
       throw Error(
           ErrorKind::argument,
-          "argument projection: auto is for a part of the Earth, and the file reaches over " +
+          "argument projection: auto is for a part of the Earth, and the file extends over " +
               rounded_text(range.width) +
               " degrees of longitude on both sides of the "
-              "equator; name a projection");
+              "equator: name a projection");
     return ReferenceSystem::azimuthal(data, 0, south >= 0 ? 90 : -90);
   }
   const int zone = std::clamp(static_cast<int>(std::floor((range.middle() + 180) / 6)) + 1, 1, 60);
@@ -169,12 +169,11 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
     return;
   }
   if (!data_)
-    throw Error(
-        ErrorKind::file,
-        "argument projection = '" + request +
-            "': the file does not say what its coordinates "
-            "are, so they cannot be projected; for a shapefile a .prj beside it says it, for "
-            "others ogr2ogr -a_srs EPSG:4326, if they are longitude and latitude");
+    throw Error(ErrorKind::file,
+                "argument projection = '" + request +
+                    "': the file has no coordinate reference system, so its coordinates cannot be "
+                    "projected: add a .prj beside a shapefile, or set it by ogr2ogr -a_srs "
+                    "EPSG:4326 if they are longitude and latitude");
   if (const auto outside = sphere_seen_from(request)) {
     target_ = ReferenceSystem::stereographic(data_, *outside);
     on_sphere_ = true;
@@ -186,7 +185,7 @@ void Projection::choose_target(const std::vector<Point<2>>& points, const std::s
       throw Error(ErrorKind::argument,
                   "argument projection = '" + request +
                       "' is longitude and "
-                      "latitude, which are no distances: name a projection, auto, or none");
+                      "latitude, which are angles, no lengths: name a projection, auto, or none");
     return;
   }
   std::vector<Point<2>> degrees = points;
@@ -208,10 +207,9 @@ void Projection::take_unit(const std::string& unit) {
   if (unit != "m" && unit != "km")
     throw Error(ErrorKind::argument, "argument unit = '" + unit + "' must be m or km");
   if (!target_ || target_.is_geographic())
-    throw Error(
-        ErrorKind::argument,
-        "argument unit = '" + unit +
-            "' needs coordinates that are projected, and these stay as they are in the file");
+    throw Error(ErrorKind::argument,
+                "argument unit = '" + unit +
+                    "' needs projected coordinates, and these stay as they are in the file");
   target_ = unit == "km" ? target_.in_unit("kilometre", 1000) : target_.in_unit("metre", 1);
 }
 
@@ -294,7 +292,7 @@ std::optional<Projection::Fault> Projection::project(std::vector<Point<2>>& poin
         std::max(std::fabs(std::remainder(returned[i][0] - given[i][0], 360)) * shrink,
                  std::fabs(returned[i][1] - given[i][1]));
     if (!(off <= same_degrees))
-      return Fault{i, "projected and back it would be " + point_text(returned[i])};
+      return Fault{i, "the inverse projection returns " + point_text(returned[i])};
   }
   return std::nullopt;
 }
@@ -337,7 +335,8 @@ Projection::Scale Projection::scale_at(const std::vector<Point<2>>& points) cons
 
 void Projection::to_degrees(std::vector<Point<2>>& points) const {
   if (!degrees_)
-    throw Error(ErrorKind::state, "the file does not say where on the Earth its coordinates are");
+    throw Error(ErrorKind::state,
+                "the coordinates of the file are in no reference system of the Earth");
   const std::vector<Point<2>> projected = points;
   degrees_->apply(points);
   restore_poles(projected, points);
@@ -345,7 +344,8 @@ void Projection::to_degrees(std::vector<Point<2>>& points) const {
 
 void Projection::from_degrees(std::vector<Point<2>>& points) const {
   if (!of_degrees_)
-    throw Error(ErrorKind::state, "the file does not say where on the Earth its coordinates are");
+    throw Error(ErrorKind::state,
+                "the coordinates of the file are in no reference system of the Earth");
   of_degrees_->apply(points);
 }
 

@@ -139,7 +139,8 @@ std::int64_t RasterFile::rows() const { return GDALGetRasterYSize(dataset_.get()
 std::array<double, 6> RasterFile::to_plane() const {
   std::array<double, 6> affine{};
   if (GDALGetGeoTransform(dataset_.get(), affine.data()) != CE_None)
-    reject_raster(name_ + " does not say where its cells lie: it has no geographic reference");
+    reject_raster(name_ +
+                  " has no geographic reference, so the positions of its cells are not known");
   return affine;
 }
 

@@ -90,8 +90,8 @@ ReferenceSystem ReferenceSystem::geographic() const {
   const GdalMessages messages;
   const OGRSpatialReferenceH beneath = OSRCloneGeogCS(get());
   if (!beneath)
-    throw Error(ErrorKind::file, "the coordinates' system, '" + name() +
-                                     "', is on no ellipsoid: it cannot be projected");
+    throw Error(ErrorKind::file, "the coordinate reference system '" + name() +
+                                     "' has no ellipsoid: it cannot be projected");
   OSRDemoteTo2D(beneath, nullptr);
   return ReferenceSystem(beneath);
 }
@@ -102,7 +102,7 @@ ReferenceSystem ReferenceSystem::in_unit(const std::string& unit, double metres)
   const GdalMessages messages;
   const std::string renamed = name() + " in " + unit;
   if (OSRSetLinearUnitsAndUpdateParameters(system.get(), unit.c_str(), metres) != OGRERR_NONE)
-    throw Error(ErrorKind::argument, "'" + name() + "' cannot be had in " + unit);
+    throw Error(ErrorKind::argument, "'" + name() + "' cannot be converted to the unit " + unit);
   OSRSetProjCS(system.get(), renamed.c_str());
   return system;
 }
@@ -145,8 +145,8 @@ Transformation::Transformation(const ReferenceSystem& from, const ReferenceSyste
   const GdalMessages messages;
   handle_.reset(OCTNewCoordinateTransformation(from.get(), to.get()));
   if (!handle_)
-    throw Error(ErrorKind::file, "there is no way from '" + from.name() + "' to '" + to.name() +
-                                     "': " + messages.failure());
+    throw Error(ErrorKind::file, "there is no transformation from '" + from.name() + "' to '" +
+                                     to.name() + "': " + messages.failure());
 }
 
 std::string Transformation::apply(std::vector<Point<2>>& points) const {

@@ -102,15 +102,15 @@ void Shapes::project() {
     layer_.notes.emplace_back(
         NoteCode::nearly_touching,
         "features " + std::to_string(miss->feature) + " and " + std::to_string(miss->other) +
-            " all but touch at " + point_text(given.points()[miss->place]) +
-            " (and maybe elsewhere): if they are neighbours, give the edge between "
-            "them the same vertices",
+            " almost touch at " + point_text(given.points()[miss->place]) +
+            " (and maybe elsewhere): if they are neighbours, give the same vertices to the edge "
+            "between them",
         2);
   std::vector<Point<2>> projected = given.points();
   if (const auto fault = projection_.project(projected))
     throw Error(ErrorKind::file, words_for(given.points()[fault->index], features[fault->index]) +
-                                     " has no place in the projection '" +
-                                     projection_.system().name() + "': " + fault->reason);
+                                     " cannot be projected to '" + projection_.system().name() +
+                                     "': " + fault->reason);
   Places places;
   std::vector<std::int64_t> place_of;
   for (std::size_t k = 0; k < projected.size(); ++k) {
@@ -138,11 +138,11 @@ void Shapes::take_notes() {
   if (!layer_.system)
     notes.emplace_back(
         NoteCode::no_reference_system,
-        "the file does not say what its coordinates are (there is no .prj beside it, say): they "
+        "the file has no coordinate reference system (such as a .prj beside it): its coordinates "
         "are taken as x and y in a plane");
   if (projection_.is_identity() && projection_.system().is_geographic())
     notes.emplace_back(NoteCode::degrees_in_plane,
-                       "longitude and latitude are taken as x and y in a plane, as asked");
+                       "longitude and latitude are taken as x and y in a plane, as requested");
   if (!on_sphere() &&
       (scale_.least < 1 - scale_note_threshold || scale_.greatest > 1 + scale_note_threshold))
     notes.emplace_back(NoteCode::scale,
@@ -150,21 +150,22 @@ void Shapes::take_notes() {
                            rounded_text(scale_.least) + " to " + rounded_text(scale_.greatest) +
                            " times what they are on the Earth, and d is meant in the projection");
   if (outlines_.retagged_edges > 0)
-    notes.emplace_back(NoteCode::segments_retagged,
-                       std::to_string(outlines_.retagged_edges) +
-                           " segments of polygons have the tag of the line that has them, too",
-                       outlines_.retagged_edges);
+    notes.emplace_back(
+        NoteCode::segments_retagged,
+        std::to_string(outlines_.retagged_edges) +
+            " segments of polygons have the tag of the line that coincides with them",
+        outlines_.retagged_edges);
   if (lines_along_boundary_ == 1)
     notes.emplace_back(
         NoteCode::lines_along_boundary,
         "a line runs along the boundary, to 0.001 of the extent: that part of the boundary has its "
-        "tag, and the line is no curve of its own",
+        "tag, and the line is not a separate curve",
         1);
   else if (lines_along_boundary_ > 1)
     notes.emplace_back(NoteCode::lines_along_boundary,
                        std::to_string(lines_along_boundary_) +
                            " lines run along the boundary, to 0.001 of the extent: these parts of "
-                           "the boundary have their tags, and the lines are no curves of their own",
+                           "the boundary have their tags, and the lines are not separate curves",
                        lines_along_boundary_);
   if (outlines_.outer_edges > 0)
     notes.emplace_back(NoteCode::shared_segments_left_out,
@@ -178,13 +179,13 @@ void Shapes::take_notes() {
   if (outlines_.lost_tags > 0)
     notes.emplace_back(NoteCode::lines_left_out,
                        "lines left out: " + std::to_string(outlines_.lost_tags) +
-                           " segments that another line has with another tag",
+                           " segments that coincide with those of a line with another tag",
                        outlines_.lost_tags);
   if (outlines_.dropped_edges > 0)
     notes.emplace_back(NoteCode::segments_left_out,
                        std::to_string(outlines_.dropped_edges) +
-                           " segments were left out that only repeat others or lead there and back "
-                           "within a feature, as along 180 degrees",
+                           " segments were left out that repeat others or are traversed in both "
+                           "directions within a feature, as along 180 degrees",
                        outlines_.dropped_edges);
 }
 
@@ -197,7 +198,7 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
                 on_sphere()
                     ? "argument domain: the shapes were read for a domain on a sphere"
                     : "argument domain: the shapes were read for a domain in the plane, and "
-                      "this one is in space; for one on a sphere name the projection "
+                      "this one is in space; for a domain on a sphere name the projection "
                       "sphere(LONGITUDE,LATITUDE)");
   if (!(corner_angle >= 0 && corner_angle <= 180))
     throw Error(ErrorKind::argument, "argument corner_angle is " + number_text(corner_angle) +

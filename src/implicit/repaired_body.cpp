@@ -312,11 +312,11 @@ SurfaceSource surface_of(const LevelSet& set, std::int32_t tag) {
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::domain) throw;
     reject_nothing(resolution +
-                   " finds: nowhere do they wind around a point more than half a time");
+                   " resolves: their winding number exceeds 1/2 at no evaluated point");
   }
   remove_thin_pieces(surface, kThin * set.resolution());
   if (surface.triangles.empty())
-    reject_nothing("is as thick as half of " + resolution + ", so try a smaller one");
+    reject_nothing("is as thick as half of " + resolution + ": try a smaller one");
   return surface;
 }
 
@@ -373,7 +373,8 @@ std::string text_of(const RepairedBody& body) {
     text += "; " + rounded_text(100 * d.lost) +
             " percent of those given, by area, are farther than the resolution from the new ones, "
             "by up to " +
-            rounded_text(d.to_new) + ": they lie inside, enclose nothing or are too near to others";
+            rounded_text(d.to_new) +
+            ": they lie inside, enclose nothing or are too close to others";
   return text;
 }
 

@@ -149,8 +149,8 @@ class CheckpointWriter {
     output_.check();
     if (!output_.written_aside())
       throw Error(ErrorKind::argument, "argument path = \"" + path_ +
-                                           "\": a checkpoint is a file of its own, no stream and "
-                                           "no device");
+                                           "\": a checkpoint must be a regular file, no stream "
+                                           "and no device");
     output_.close(output_.open());
     const std::vector<hdf5::Array> all = arrays();
     places_ = io::lay_out(output_, quoted_checkpoint(path_), all,
@@ -325,7 +325,7 @@ class CheckpointReader {
     const bool same = comm_.allreduce_sum(checksum) + checksum_of_tables(state_) == state_.checksum;
     const bool same_patch =
         !state_.spacing_saved || comm_.allreduce_sum(checksum_of(patch)) == patch_checksum_;
-    if (!same || !same_patch) refuse("its numbers do not have their checksum");
+    if (!same || !same_patch) refuse("the checksum of its arrays does not match");
     explained([&] { placement_.restore(state_, std::move(nodes), std::move(patch)); });
   }
 
@@ -495,7 +495,8 @@ class CheckpointReader {
     read_rows(file, facet_column<Dim>(0), places_[next++], before.facets, mine.facets,
               patch.border.data());
     for (const PatchNode<Dim>& node : patch.nodes)
-      if (!is_usable(node.x) || !is_usable(node.value)) refuse("a node of its spacing is nowhere");
+      if (!is_usable(node.x) || !is_usable(node.value))
+        refuse("a node of its spacing has coordinates or a value that are not usable");
     // Rows count the nodes of their part, so shift them to the joined nodes.
     PatchSizes done;
     for (std::int64_t p = 0; p < parts.count; ++p) {
@@ -512,7 +513,8 @@ class CheckpointReader {
              std::int64_t nodes) const {
     for (std::int64_t k = first; k < first + n; ++k)
       for (std::int32_t& node : rows[static_cast<std::size_t>(k)]) {
-        if (node < 0 || node >= nodes) refuse("a simplex of its spacing has no such node");
+        if (node < 0 || node >= nodes)
+          refuse("a simplex of its spacing has a node that does not exist");
         node += static_cast<std::int32_t>(by);
       }
   }

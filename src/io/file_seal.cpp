@@ -102,7 +102,7 @@ void require_seal(const std::string& path, const std::string& name) {
   if (seal.mark != kMark)
     throw Error(ErrorKind::file,
                 name + " is an HDF5 file, but no checkpoint of PNPBS, or its end is missing");
-  const std::string damaged = name + " is damaged: its layout does not have its checksum";
+  const std::string damaged = name + " is damaged: the checksum of its layout does not match";
   if (seal.extents < 0 || seal.extents > kMostExtents) throw Error(ErrorKind::file, damaged);
   const std::int64_t end = size - kEnd - seal.extents * kExtent;
   if (end < 0) throw Error(ErrorKind::file, damaged);

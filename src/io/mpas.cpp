@@ -479,9 +479,9 @@ void append_lines(const std::vector<std::int32_t>& rows, int columns, SharedFile
 // unlimited dimension.
 void require_numbers(const SphereGrid& grid) {
   if (grid.cells == 0)
-    throw Error(
-        ErrorKind::argument,
-        "a grid of cells would have none: all nodes are on the boundary, so d is too large");
+    throw Error(ErrorKind::argument,
+                "the MPAS grid would have no cells, because all nodes are on the boundary: use a "
+                "smaller d");
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
   if (grid.edges > kMost)
     throw Error(ErrorKind::argument, "an MPAS grid can have " + std::to_string(kMost) +

@@ -33,7 +33,7 @@ void require_name(const std::string& name) {
   constexpr std::string_view ours[] = {"id", "tag", "spacing", "quality", "vtkghosttype"};
   if (std::ranges::find(ours, to_lower_case(name)) != std::end(ours))
     refuse_field("argument name = \"" + name +
-                 "\" is that of an array that files have anyway; choose "
+                 "\" is the name of an array that files always contain; choose "
                  "another");
 }
 
@@ -66,7 +66,7 @@ void require_new_field(const std::vector<OutputField>& all, const std::string& n
                  "; an output field has 1 to " + std::to_string(kMaxComponents));
   if (n < owners)
     refuse_field("argument n = " + std::to_string(n) + "; this rank has " + std::to_string(owners) +
-                 " " + called + ", and every one has its values");
+                 " " + called + ": give values for each of them");
   if (owners > 0 && !values) refuse_field("argument values is NULL");
 }
 

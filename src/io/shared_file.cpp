@@ -53,7 +53,7 @@ std::vector<std::int64_t> SharedFile::make(
     if (!is_first()) return;
     if (stream_ >= 0)
       throw Error(ErrorKind::argument, "cannot write " + output_.quoted() +
-                                           ": it is to be a file of its own, no stream and no "
+                                           ": it must be a regular file, no stream and no "
                                            "device");
     for (const std::int64_t number : work(output_)) pack(bytes, number);
   });

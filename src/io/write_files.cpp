@@ -192,9 +192,9 @@ std::string with_extension(const std::string& path, const char* extension) {
 void require_result_indices(const std::string& path, const Format& format) {
   const std::string what = std::string("a .") + format.name + " file ";
   std::error_code error;
-  if (path == "-") refuse(what + "cannot go to standard output; take vtu there");
+  if (path == "-") refuse(what + "cannot go to standard output; use vtu there");
   if (std::filesystem::is_other(path, error))
-    refuse(what + "is a file of its own, no stream and no device: '" + path + "'");
+    refuse(what + "must be a regular file, no stream and no device: '" + path + "'");
 }
 
 // Adds the request for the file of arrays of a .xdmf file. Throws if its name has a colon, which
@@ -211,18 +211,21 @@ void add_heavy_data(const FileRequest& of, std::vector<FileRequest>& requests) {
 
 void require_possible(const std::string& path, const Format& format, bool elements, int dimension) {
   if (format.of == Of::bodies && dimension == 2)
-    refuse(std::string("a .") + format.name + " file is of bodies, none of the plane: '" + path +
+    refuse(std::string("a .") + format.name + " file is for bodies, not for the plane: '" + path +
            "'");
   if (format.of == Of::triangles && dimension == 3)
-    refuse(std::string("a .") + format.name + " file is of triangles of the plane or a sphere, " +
-           "none of bodies: '" + path + "'");
+    refuse(std::string("a .") + format.name +
+           " file is for triangles in the plane or on a sphere, " + "not for bodies: '" + path +
+           "'");
   if (format.in_pieces() && path == "-")
-    refuse("a file in pieces cannot go to standard output; take vtu instead of pvtu");
+    refuse("a file in pieces cannot go to standard output; use vtu instead of pvtu");
   if (format.by_hdf5) require_result_indices(path, format);
   if (elements && (format.elements == Elements::never || format.elements == Elements::regions))
-    refuse(std::string("a .") + format.name + " file has no place for elements: '" + path + "'");
+    refuse(std::string("a .") + format.name + " file cannot contain elements: '" + path + "'");
   if (elements && format.elements == Elements::beside && path == "-")
-    refuse("elements would go to a second file beside standard output: ask for ele there");
+    refuse(
+        "elements need a second file, which standard output does not have: request the format ele "
+        "there");
 }
 
 // Returns whether a second file can be placed beside this path: not for streams and devices.
@@ -376,11 +379,11 @@ void add_request(const std::string& path, const std::string& format_name, bool e
   const Format& format = format_of(path, format_name);
   require_possible(path, format, elements, of.dimension);
   if (format.write == write_gadget && of.kind == GeometryKind::sphere)
-    refuse("a .hdf5 file is of gas in the plane or in space, none on a sphere: '" + path + "'");
+    refuse("a .hdf5 file is for gas in the plane or in space, not on a sphere: '" + path + "'");
   if (format.of == Of::spheres && of.kind != GeometryKind::sphere)
-    refuse(std::string("a .") + format.name + " file is of the cells of a sphere: '" + path + "'");
+    refuse(std::string("a .") + format.name + " file is for the cells of a sphere: '" + path + "'");
   if (of.kind == GeometryKind::surface && format.of == Of::bodies && !format.fields.empty())
-    refuse(std::string("a .") + format.name + " file is of bodies, none of surfaces alone: '" +
+    refuse(std::string("a .") + format.name + " file is for bodies, not for surfaces alone: '" +
            path + "'");
   const bool holds_elements =
       format.elements == Elements::always ||

@@ -128,7 +128,7 @@ void require_formats_of_points(const std::vector<FileRequest>& requests) {
   for (const FileRequest& request : requests)
     if (!request.format->write || request.format->elements == Elements::always)
       throw Error(ErrorKind::argument, std::string("a .") + request.format->name +
-                                           " file has no place for particles: '" + request.path +
+                                           " file cannot contain particles: '" + request.path +
                                            "'");
 }
 

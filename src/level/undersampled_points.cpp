@@ -51,9 +51,9 @@ std::vector<Place> undersampled_points_of_own(const Level<3>& level) {
 MessageText text_of(const std::vector<Place>& places) {
   const Place& finest = places.front();
   return "the spacing d = " + rounded_text(finest.d) + " near " + rounded_point_text<3>(finest.x) +
-         " is for so small a place that samples around have " + rounded_text(finest.sampled) +
-         " at the least: let d grow gradually from it, by " + number_text(method::kGrowthFollowed) +
-         " times the distance or less";
+         " is smaller than at all samples around it, where it is " + rounded_text(finest.sampled) +
+         " or more: let d grow gradually from this point, by " +
+         number_text(method::kGrowthFollowed) + " times the distance or less";
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ void require_near_one(double factor) {
   throw Error(ErrorKind::domain,
               "argument body: the cells of the particles at its wall have " +
                   rounded_text(1 / factor) +
-                  " of the volume that is left for them there: the nodes do not fill this body, or "
+                  " of the volume that remains for them there: the nodes do not fill this body, or "
                   "d is too large for its thin parts");
 }
 

@@ -29,8 +29,8 @@ void require_inside(const Communicator& comm, const KnownParticles<Dim>& particl
     if (!any || id > first) return;
     throw Error(ErrorKind::domain, "argument body: the node " + std::to_string(particles.ids[i]) +
                                        " at " + point_text(particles.x[i]) +
-                                       " lies on its wall or outside: place nodes in what "
-                                       "pnpbs_domain_add_offset makes of it");
+                                       " lies on its wall or outside: place nodes in the "
+                                       "body that pnpbs_domain_add_offset adds for it");
   });
 }
 

@@ -41,14 +41,15 @@ void Placement::adopt_changes(const std::vector<OptionChange>& changes) {
     state_.schedule = state_.schedule.again();
   } else if (finished() && more_steps && state_.stop_reason == StopReason::rest) {
     told += "; the bubbles rest after " + std::to_string(state_.schedule.step) +
-            " steps, and more of them change nothing: lower tolerance_mean for a run that goes on";
+            " steps, and more steps change nothing: lower the option tolerance_mean for a run that "
+            "continues";
   } else if (finished() && more_steps &&
              state_.schedule.step < options_.in(dimension()).integer("steps")) {
     state_.schedule.progress = Progress::steps;
     state_.schedule.population_settled = false;
     state_.schedule.quiet_events = 0;
   } else if (finished()) {
-    told += "; the run is at its end, and they change nothing of it";
+    told += "; the run has finished, and they have no effect on it";
   }
   state_.warnings.insert(
       state_.warnings.begin() + static_cast<std::ptrdiff_t>(state_.warnings_of_level),

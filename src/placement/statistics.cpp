@@ -84,7 +84,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "status", [](P p) { return static_cast<std::int64_t>(p.outcome()); },
           "status (pnpbs_status) that the last run to its end returned, also where it was "
           "continued "
-          "from a checkpoint; 0 before there was one"),
+          "from a checkpoint; 0 before the first run"),
       integer(
           "levels", [](P p) { return std::int64_t{p.coarser_levels()}; },
           "coarser levels that provided the first nodes"),
@@ -149,7 +149,7 @@ const std::vector<StatisticRow>& statistic_table() {
           "the repaired surface"),
       integer(
           "unknown_uses", [](P p) { return p.unknown_uses(); },
-          "decisions, up to the end of the last run, based on stars that a rank does not know "
+          "decisions, up to the end of the last run, based on stars that a rank does not hold "
           "exactly, and nodes whose adjacency lists could miss a node, or that lie in a leaf of "
           "the background tree held by no rank; in a library built with "
           "PNPBS_COUNT_UNKNOWN_USES also nodes moved or judged by others that are not exact; if "
@@ -201,7 +201,7 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.stars", seconds<Phase::stars>, "Delaunay stars"),
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
       real("seconds.conformity", seconds<Phase::conformity>,
-           "making the boundary of the elements that of the domain, and judging the elements"),
+           "making the elements conform to the boundary of the domain, and checking them"),
       real("seconds.total", seconds<Phase::total>,
            "from domain and spacing given to nodes available, without files"),
       integer(
@@ -216,10 +216,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "largest memory.peak_bytes over the ranks")),
       computed(real(
           "volume.elements", [](P p) { return p.volume_of_elements(); },
-          "volume of the tetrahedra; 0 of domains that are no bodies in space")),
+          "volume of the tetrahedra; 0 for domains that are not bodies in space")),
       real(
           "volume.domain", [](P p) { return p.volume_of_domain(); },
-          "volume of the body; 0 of domains that are none in space"),
+          "volume of the body; 0 for domains that are not bodies in space"),
       computed(real(
           "boundary.distance", [](P p) { return p.boundary_distance().of_faces; },
           "largest distance over d of the boundary of the tetrahedra from the surfaces of the "
@@ -315,7 +315,8 @@ const std::vector<StatisticRow>& statistic_table() {
           "speed.largest", [](P p) { return p.results().speeds().max; },
           "largest scaled speed, spacings per unit of time"),
       real(
-          "speed.mean", [](P p) { return p.results().speeds().mean; }, "mean scaled speed"),
+          "speed.mean", [](P p) { return p.results().speeds().mean; },
+          "mean scaled speed, spacings per unit of time"),
       text("stop_reason", stop_reason,
            "why the last run or step call ended: rest, step limit, monitor, or none"),
       text("hash", hash,

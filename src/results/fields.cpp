@@ -18,7 +18,7 @@ namespace {
 void require_components(std::int64_t components) {
   if (components < 1)
     throw Error(ErrorKind::argument,
-                "argument components = " + std::to_string(components) + "; there is at least 1");
+                "argument components = " + std::to_string(components) + "; expected at least 1");
 }
 
 void require_values(const double* values, std::int64_t n, const char* argument) {
@@ -114,14 +114,14 @@ void NodalResults::require_result_indices(std::int64_t n) const {
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                          std::to_string(count()) + " nodes and " +
                                          std::to_string(places - count()) +
-                                         " ghosts, and every one has its values");
+                                         " ghosts: give values for each of them");
 }
 
 void NodalResults::require_owned(std::int64_t n) const {
   if (n < count())
     throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +
                                          std::to_string(count()) +
-                                         " nodes, and every one has its values");
+                                         " nodes: give values for each of them");
 }
 
 void NodalResults::sum(std::int64_t n, std::int64_t components, const double* values,

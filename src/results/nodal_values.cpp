@@ -75,7 +75,7 @@ void prepare_same_stars(Results<Dim>& results) {
   results.prepare_stars();
   if (ids() != before)
     throw Error(ErrorKind::state,
-                "nodes have changed their ranks since the computation before failed: ask for the "
+                "nodes have changed their ranks since the computation before failed: query the "
                 "nodes again, and give the values at them");
 }
 

@@ -19,8 +19,8 @@ void gather_unknown_uses(const Level<Dim>& level, RunState& run) {
     run.warnings.emplace_back(
         WarningCode::depends_on_ranks,
         "the nodes may depend on the number of ranks: " + std::to_string(run.unknown_uses) +
-            " decisions looked beyond what a rank knows (statistic unknown_uses); on "
-            "one rank they do not",
+            " decisions used data that their rank does not hold exactly (statistic "
+            "unknown_uses); on one rank there are none",
         run.unknown_uses);
 }
 

@@ -52,8 +52,7 @@ std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
   return Warning(WarningCode::spacing_coarse,
                  "the spacing is " + three_digits(d) + " or more, the longest side of the domain " +
                      three_digits(side) +
-                     ": corners, edges and curved surfaces alone decide where nodes are; "
-                     "nodes follow a spacing of " +
+                     ": nodes lie on corners, edges and curved surfaces only; use a spacing of " +
                      three_digits(kRight * side) + " or less",
                  0, d);
 }

@@ -118,8 +118,8 @@ const std::vector<OptionRow>& option_table() {
       {"sweep_weight", T::real, "0.6", nullptr, nullptr, 0, 1, nullptr,
        "fraction of the distance to that mean by which a sweep moves a node"},
       {"first_row", T::integer, "1", "0", nullptr, 0, 1, nullptr,
-       "1, only in the plane: before the sweeps, of which there must be any, one node is put over "
-       "each regular edge of the boundary, in place of the first row that the bubbles have made"},
+       "1, only in the plane and with sweeps: before the sweeps, one node is put over each regular "
+       "edge of the boundary, in place of the first row that the bubbles have made"},
       {"topology_repairs", T::integer, "0", nullptr, "1", 0, 1000, nullptr,
        "maximum rounds at the end of every level that insert or delete nodes where one is "
        "missing or in excess: tried on a copy of the nodes around, and kept where the triangles "
@@ -180,7 +180,7 @@ const std::vector<OptionRow>& option_table() {
        "read, or change from there on"},
       {"threads", T::integer, "0", nullptr, nullptr, 0, 4096, nullptr,
        "threads of the process, set on the context before anything runs; 0: OMP_NUM_THREADS or "
-       "KOKKOS_NUM_THREADS, else the number of cores divided by our ranks on the node"},
+       "KOKKOS_NUM_THREADS, else the number of cores divided by that of ranks on the machine"},
   });
   return table;
 }

@@ -106,7 +106,9 @@ class OffsetFunction {
     for (const double limit : {std::fabs(offset_.low), std::fabs(offset_.high)})
       if (limit > 0) least = std::min(least, limit);
     if (least == kNoLimit)
-      reject("resolution is 0, and there is no length to find one by: expected a positive number");
+      reject(
+          "resolution is 0, and neither a spacing nor a limit other than 0 determines one: "
+          "expected a positive number");
     return kFineness<Dim> * least;
   }
 

@@ -195,11 +195,11 @@ ClosingPatch closing_patch(const StereographicChart& chart, const Spacing<2>& sp
   patch.d = spacing_at_point(spacing, chart);
   const double d = patch.d / radius;  // d on the sphere in radians
   if (d > kMostAtPoint)
-    throw Error(ErrorKind::spacing, "the spacing at the point that is named as outside is " +
-                                        number_text(patch.d) + ": on a whole sphere of radius " +
-                                        number_text(radius) + " it must be at most " +
-                                        number_text(kMostAtPoint * radius) +
-                                        " there: name another point");
+    throw Error(ErrorKind::spacing,
+                "the spacing at the point that is named as outside of the domain is " +
+                    number_text(patch.d) + ": on a whole sphere of radius " + number_text(radius) +
+                    " it must be at most " + number_text(kMostAtPoint * radius) +
+                    " there: name another point");
   const FromOtherSide around(spacing, chart, other, kNotNearer * patch.d);
   const std::vector<Point<3>> nodes = turned_to_point(
       chart, nodes_around(other, around, std::min(kRadiusOfDisc * d, kMostOfSphereForDisc)));

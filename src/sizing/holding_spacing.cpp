@@ -137,10 +137,12 @@ Warning warning_of_too_many(double expected_nodes, const LocalReduction<Dim>& he
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   const auto nodes = static_cast<std::int64_t>(expected_nodes);
   return {WarningCode::not_conforming,
-          "the shape takes about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
-              rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) + ", and the " +
-              "spacing that is set asks for " + std::to_string(held.start_nodes) +
-              ": set the option resolve to place them, or a smaller spacing there",
+          "the shape needs about " + std::to_string(nodes) + " nodes or more, with a spacing of " +
+              rounded_text(finest.d) + " at " + rounded_point_text<Dim>(finest.x) +
+              ", and the given "
+              "spacing would give " +
+              std::to_string(held.start_nodes) +
+              ": set the option resolve, or a smaller spacing there",
           nodes, finest.d};
 }
 
@@ -150,10 +152,10 @@ Warning warning_of_reduced_spacing(const LocalReduction<Dim>& held, std::int64_t
       held.places, [](const auto& p, const auto& q) { return p.d < q.d; });
   return {WarningCode::spacing_held,
           "the spacing did not resolve the shape at " + std::to_string(held.places.size()) +
-              " places, and is held down there, to " + rounded_text(finest.d) + " at " +
+              " places, and is reduced there, to " + rounded_text(finest.d) + " at " +
               rounded_point_text<Dim>(finest.x) + ": " + std::to_string(nodes) +
               " nodes instead of " + std::to_string(held.start_nodes) +
-              " (option conforming_rounds, 0 to have d as it is given)",
+              " (option conforming_rounds, 0 for d as it is given)",
           std::ssize(held.places), finest.d};
 }
 

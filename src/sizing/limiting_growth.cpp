@@ -166,12 +166,12 @@ Warning warning_of_growth(const SteepestGrowth<Dim>& steepest, double growth_lim
   const MessageText found = "the spacing grows by " + rounded_text(steepest.growth) +
                             " per unit of length near " + rounded_point_text<Dim>(steepest.at) +
                             ", faster than nodes can follow: ";
-  const std::string what_helps =
-      growth_limit == 0
-          ? "limit its growth (option growth_limit, " + number_text(method::kGrowthFollowed) +
-                " or less)"
-          : "its growth is limited to " + number_text(growth_limit) +
-                "; set the option growth_limit to choose another limit, or 0 to have it as given";
+  const std::string what_helps = growth_limit == 0
+                                     ? "limit its growth (option growth_limit, " +
+                                           number_text(method::kGrowthFollowed) + " or less)"
+                                     : "its growth is limited to " + number_text(growth_limit) +
+                                           "; set the option growth_limit to choose another limit, "
+                                           "or 0 for the spacing as it is given";
   return {WarningCode::growth, found + what_helps, 0, steepest.growth};
 }
 

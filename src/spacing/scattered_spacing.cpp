@@ -132,7 +132,7 @@ ScatteredSpacing<Dim, Across>::ScatteredSpacing(const GivenField<Dim, Across + 1
       };
       throw Error(ErrorKind::spacing, name(order[k - 1]) + " and " + name(order[k]) +
                                           " are both at " + point_text(x) +
-                                          ": a place has one spacing");
+                                          ": a point has one spacing");
     }
     points_.push_back(x);
     values_.push_back(value);

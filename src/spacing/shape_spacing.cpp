@@ -91,11 +91,11 @@ class Widths {
         sources.insert(sources.end(), found[i].begin(), found[i].end());
       }
       if (sources.size() + halves.size() > kMaxParts)
-        throw Error(
-            ErrorKind::spacing,
-            "the domain is so narrow in places that its width would be taken at more than " +
-                std::to_string(kMaxParts) +
-                " places: set the spacing in another way, or repair the geometry there");
+        throw Error(ErrorKind::spacing,
+                    "the domain is so narrow that its width would be measured at more than " +
+                        std::to_string(kMaxParts) +
+                        " points: repair the geometry where it is narrow, or set the spacing in "
+                        "another way");
       parts = std::move(halves);
     }
     return sources;

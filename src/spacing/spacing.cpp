@@ -139,14 +139,14 @@ void evaluate_spacing(const Spacing<Dim>& spacing, double measure, std::int64_t 
     if (std::isfinite(d[i]) && d[i] > 0 && meant_nodes<Dim>(d[i], measure) < kMaxNodes) continue;
     MessageText message = "spacing d = " + number_text(d[i]) + " at " + point_text(x[i]);
     if (!std::isfinite(d[i]))
-      message += " is not finite; any number of nodes could be meant";
+      message += " is not finite; d must be a finite number greater than 0";
     else if (d[i] <= 0)
       message += " would mean infinitely many nodes; d must be greater than 0";
     else if (std::isfinite(meant_nodes<Dim>(d[i], measure)))
       message += " would mean about " + number_text(std::round(meant_nodes<Dim>(d[i], measure))) +
                  " nodes if it held in the whole domain; use a larger d";
     else
-      message += " would mean more nodes than there are numbers for; use a larger d";
+      message += " would mean more nodes than can be counted; use a larger d";
     throw Error(ErrorKind::spacing, message);
   }
 }

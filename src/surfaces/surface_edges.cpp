@@ -64,10 +64,10 @@ Neighbours find_neighbours(const Triangulation& surface, const SurfaceEdges& edg
 
 [[noreturn]] void reject_one_sided(const Triangulation& surface, std::int32_t t, std::int32_t k,
                                    std::int32_t other) {
-  throw BrokenSurface("the surface has but one side, as a Moebius strip has: going round on it, " +
-                      surface.triangle_name(t) + " and " + surface.triangle_name(other) +
-                      " are found turned against each other at " +
-                      surface.vertex_name(surface.triangles[t].vertices[k]));
+  throw BrokenSurface(
+      "the surface has one side only, like a Moebius strip: " + surface.triangle_name(t) + " and " +
+      surface.triangle_name(other) + " cannot be oriented consistently at " +
+      surface.vertex_name(surface.triangles[t].vertices[k]));
 }
 
 // Returns the triangles connected with the first one. Sets `turned` of each to 1 if it must be
@@ -122,7 +122,7 @@ void orient_surfaces(Triangulation& surface, SurfaceEdges& edges, OneSided one_s
   edges = SurfaceEdges(surface);
   warnings.emplace_back(WarningCode::triangles_turned,
                         std::to_string(turns) + (turns == 1 ? " triangle was" : " triangles were") +
-                            " turned around to agree with the neighbours; the first is " + name,
+                            " reversed to be oriented as the neighbours are; the first is " + name,
                         turns);
 }
 

@@ -150,7 +150,7 @@ void remove_thin_triangles(Triangulation& surface, double tolerance,
   if (count == 0) return;
   warnings.emplace_back(WarningCode::triangles_left_out,
                         std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
-                            " no area to speak of and " + (count == 1 ? "is" : "are") +
+                            " a negligible area and " + (count == 1 ? "is" : "are") +
                             " left out; the first is " + first,
                         count);
 }

@@ -20,19 +20,20 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
   if (!arguments.at_centres) return;
   const std::string option = arguments.in_walls ? "--nodes-at walls" : "--nodes-at centers";
   if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
-    refuse(option + " needs d as a formula or on a grid: --spacing, --spacing-grid");
+    refuse(option + " needs d as a formula or on a grid: use --spacing or --spacing-grid");
   if (multiplied)
     refuse(option +
            " takes d as given, so --nodes cannot scale it: the number of particles is the measure "
            "of the " +
            (arguments.in_walls ? "wall" : "domain") + " over d^2, or d^3 in space");
   if (arguments.surfaces_only)
-    refuse(option + " is for bodies, and --surfaces-only leaves nothing of them but surfaces");
+    refuse(option + " is for bodies, and with --surfaces-only nothing is inside");
   if (arguments.repair_if_needed)
-    refuse(option + " needs to know the body: name the resolution of --repair");
+    refuse(option + " and --repair auto exclude each other: give the resolution of --repair");
   if (!arguments.regions.empty())
-    refuse(option +
-           " places particles, and --region gives tags to elements, which they have none of");
+    refuse(
+        option +
+        " and --region exclude each other: regions are tags of elements, and particles have none");
 }
 
 void require_depth_rule_that_fits(const Arguments& arguments) {
@@ -41,13 +42,13 @@ void require_depth_rule_that_fits(const Arguments& arguments) {
   if (arguments.spacing == "auto" || spacing_file(arguments.spacing))
     refuse(option + " and a --spacing that is no formula exclude each other");
   if (request.rule.wave == 0 && arguments.spacing.empty() && !arguments.max_spacing)
-    refuse(option + ": with wave=0 nothing bounds d where the bottom is flat: --max-spacing");
+    refuse(option + ": with wave=0 nothing bounds d where the bottom is flat: give --max-spacing");
   if (arguments.sphere) metres_per_unit(request, "");
 }
 
 void require_what_spheres_have(const Arguments& arguments) {
   if (!arguments.sphere) {
-    if (arguments.view) refuse("--view is how pictures show a sphere: give --sphere as well");
+    if (arguments.view) refuse("--view is for pictures of a sphere: it needs --sphere");
     return;
   }
   const auto refuse_if = [](bool is_set, const std::string& option) {
@@ -74,9 +75,9 @@ void request_data_for_formats(Arguments& arguments) {
     const std::string name = format ? format->name : "";
     if (name != "peridigm" && name != "lammps" && name != "hdf5") continue;
     if (arguments.surfaces_only)
-      refuse("a ." + name + " file is of bodies, and --surfaces-only leaves nothing inside");
+      refuse("a ." + name + " file is for bodies, and with --surfaces-only nothing is inside");
     if (name != "peridigm" && !arguments.density)
-      refuse("a ." + name + " file needs the density of particles: --density");
+      refuse("a ." + name + " file needs the density of particles: give --density");
     arguments.volumes = true;
   }
 }
@@ -89,8 +90,9 @@ void require_arguments_that_fit(const Arguments& arguments) {
   if (arguments.spacing.empty() && grids == 0 && !by_depth)
     refuse("--spacing or --spacing-grid is missing");
   if (arguments.spacing.empty() && grids + (by_depth ? 1 : 0) > 1)
-    refuse(by_depth ? "--depth-rule and --spacing-grid need a formula that combines them: --spacing"
-                    : "several --spacing-grid need a formula that combines them: --spacing");
+    refuse(by_depth
+               ? "--depth-rule and --spacing-grid need a formula that combines them: give --spacing"
+               : "several --spacing-grid need a formula that combines them: give --spacing");
   if (by_depth) require_depth_rule_that_fits(arguments);
   if (grids > 0 && arguments.fields.empty() &&
       (arguments.spacing == "auto" || spacing_file(arguments.spacing)))
@@ -99,7 +101,7 @@ void require_arguments_that_fit(const Arguments& arguments) {
   if (has_formula && (arguments.min_spacing || arguments.max_spacing)) {
     refuse(
         "--min-spacing and --max-spacing are for --spacing auto and --depth-rule; in a formula, "
-        "min(...) and max(...) do it");
+        "use min(...) and max(...)");
   }
   if (arguments.min_spacing && arguments.max_spacing &&
       *arguments.min_spacing > *arguments.max_spacing) {
@@ -114,7 +116,7 @@ void require_arguments_that_fit(const Arguments& arguments) {
         "number or the bounds");
   if (multiplied && arguments.simplify)
     refuse(
-        "--simplify goes by d as given, and --nodes multiplies that: find d by --nodes with "
+        "--simplify uses d as given, and --nodes multiplies it: find d by --nodes with "
         "--dry-run, and give it to --spacing");
   require_centres_that_fit(arguments, multiplied);
   require_what_spheres_have(arguments);
@@ -131,8 +133,8 @@ void require_arguments_that_fit(const Arguments& arguments) {
     refuse("--checkpoint-every needs --checkpoint");
   if (arguments.repair_if_needed && !(arguments.checkpoint.empty() && arguments.restart.empty()))
     refuse(
-        "--repair auto may choose another body in every run, and a checkpoint belongs to one: name "
-        "the resolution");
+        "--repair auto may choose another body in every run, and a checkpoint belongs to one body: "
+        "give the resolution of --repair");
   if (arguments.resurface && (arguments.repair || arguments.repair_if_needed))
     refuse("--resurface and --repair exclude each other");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
@@ -158,7 +160,8 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
   if (dimension == 3 && arguments.corner_angle)
-    refuse("--corner-angle is for domains in the plane, and this one is a body: --feature-angle");
+    refuse(
+        "--corner-angle is for domains in the plane, and this one is a body: use --feature-angle");
   if (dimension == 3 && arguments.simplify)
     refuse("--simplify is for domains in the plane, and this one is a body");
   if (arguments.surfaces_only && !arguments.cut.empty())
@@ -168,7 +171,7 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
       refuse(std::string("--region: expected ") + (dimension == 2 ? "X,Y:TAG" : "X,Y,Z:TAG") +
              " for this domain, found '" + region.text + "'");
   if (arguments.surfaces_only && !arguments.regions.empty())
-    refuse("--region is for what is inside, and --surfaces-only leaves that empty");
+    refuse("--region is for the inside of bodies, and with --surfaces-only nothing is inside");
   using picture::ElementColour;
   const bool coloured = arguments.colour.value_or(ElementColour::none) != ElementColour::none;
   if (arguments.surfaces_only && coloured)

@@ -234,9 +234,9 @@ void add_input(CLI::App& app, Arguments& arguments) {
          [&arguments](const std::string& text) { arguments.depth_rule = depth_request_in(text); },
          "d by the depth on such a grid, in metres: 30 nodes per length of a\n"
          "tide wave, or wave=NODES and period=SECONDS; with slope=NODES also\n"
-         "on slopes; with up for elevations; no depth is below 10, or\n"
-         "least=DEPTH; with metres=NUMBER, the unit of length is so long; in\n"
-         "--spacing it is by_depth")
+         "on slopes; with up for elevations; depths are at least 10,\n"
+         "or least=DEPTH; metres=NUMBER is the unit of length in metres; in\n"
+         "--spacing the name of this d is by_depth")
       ->type_name("[NAME=]FILE[:VARIABLE][,WORD]...")
       ->group(group);
   app.add_option("--spacing-hints", arguments.spacing_hints,
@@ -284,16 +284,16 @@ void add_geo(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
          "--sphere", [&arguments](const std::string& text) { take_sphere(text, arguments); },
          "on a sphere of this radius, in the unit of d, without a\n"
-         "projection: what the coasts in a GeoJSON file, a shapefile or the\n"
-         "like bound, seen from a point outside of it at a longitude and\n"
-         "latitude; default: 55,-82, in Antarctica, for the seas. Without\n"
-         "--domain, the whole sphere, on which nodes around that point are\n"
-         "laid first. Formulas know lon and lat, and lengths are along the\n"
-         "sphere")
+         "projection: the domain that the coasts in a GeoJSON file, a\n"
+         "shapefile or the like bound, on the side away from a point outside\n"
+         "of it, at a longitude and latitude; default: 55,-82, in Antarctica,\n"
+         "for the seas. Without --domain, the whole sphere, on which nodes\n"
+         "around that point are laid first. Formulas may contain lon and\n"
+         "lat, and lengths are along the sphere")
       ->type_name("RADIUS[,LON,LAT]")
       ->group(group);
   app.add_option("--projection", arguments.projection,
-                 "of GeoJSON, shapefiles and the like: the coordinate system of x\n"
+                 "for GeoJSON, shapefiles and the like: the coordinate system of x\n"
                  "and y, as a code (EPSG:2180), a PROJ string or a .prj file; auto,\n"
                  "a local projection, the default for longitude and latitude; or\n"
                  "none")
@@ -356,16 +356,16 @@ void add_repair(CLI::App& app, Arguments& arguments) {
          "in space: the body that the triangles enclose, even if they are\n"
          "open, crossing or inconsistently oriented, to this resolution;\n"
          "default: 1/64 of the longest side; a sound body stays as it is;\n"
-         "auto: only if the body is refused otherwise, or torn in the end:\n"
-         "then to d")
+         "auto: only if the body is refused otherwise, or, with d as the\n"
+         "resolution, if its boundary is torn at the end of the run")
       ->expected(0, 1)
       ->type_name("[RESOLUTION|auto]")
       ->group("What to fill");
   app.add_option_function<std::vector<std::string>>(
          "--resurface",
          [&arguments](const std::vector<std::string>& text) { take_resurfacing(text, arguments); },
-         "in space: the same, even if the body is sound, to remove what is\n"
-         "finer than this resolution")
+         "in space: as --repair, but even if the body is sound, to remove\n"
+         "what is finer than this resolution")
       ->expected(1)
       ->type_name("RESOLUTION")
       ->group("What to fill");

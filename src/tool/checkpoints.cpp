@@ -15,7 +15,7 @@ namespace pnpbs::tool {
 CheckpointInterval checkpoint_interval_in(const std::string& text) {
   const auto refuse = [&]() -> CheckpointInterval {
     throw BadInput(
-        "--checkpoint-every: expected a number of steps, or a time as 90s, 30min or 2h, "
+        "--checkpoint-every: expected a number of steps, or a time such as 90s, 30min or 2h, "
         "found '" +
         text + "'");
   };

@@ -184,7 +184,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       regions_(arguments.regions) {
   if (sphere_ && !geo_ && !path_.empty())
     throw BadInput(
-        "--sphere is for the coasts in GeoJSON, shapefiles and what else GDAL reads, "
+        "--sphere is for the coasts in GeoJSON, shapefiles and other files that GDAL reads, "
         "and '" +
         path_ + "' is none of these");
   if (sphere_) dimension_ = 3;
@@ -223,7 +223,7 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
   const pnpbs_status status = pnpbs_domain_check(domain);
   if (status == PNPBS_ERROR_DOMAIN && may_be_repaired()) {
     if (talk)
-      std::cerr << "pnpbs: note: the body is repaired, as it is refused otherwise: "
+      std::cerr << "pnpbs: note: the body is repaired, because it is refused otherwise: "
                 << pnpbs_last_error(context) << "\n";
     return repair(domain, 0, context);
   }

@@ -59,8 +59,8 @@ struct ShapeAtPoints {
         return answers.values[static_cast<std::size_t>(place)];
     constexpr std::size_t many = 32;
     if (known.size() == many)
-      throw BadInput(*current_option + ": what " + std::string(name) +
-                     "(...) is given must be a number, the same everywhere");
+      throw BadInput(*current_option + ": the argument of " + std::string(name) +
+                     "(...) must be a constant number");
     std::vector<double> values(static_cast<std::size_t>(n));
     ask(number, n, coordinates, values.data());
     known.push_back({name, number, std::move(values)});
@@ -100,7 +100,7 @@ double distance_to(double tag) {
 double dist_of(double tag) {
   if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
     throw BadInput(*current_option + ": dist(" + short_number(tag) +
-                   "): expected a tag, a whole number but 0");
+                   "): expected a tag, an integer other than 0");
   return distance_to(tag);
 }
 
@@ -388,10 +388,9 @@ std::string expression_help() {
          "functions " +
          list +
          "; in --spacing and --field also dist, the distance to the boundary, dist(TAG) and "
-         "dist(NAME), to "
-         "what has "
-         "the tag or the group's name, the names of --spacing-grid and, with _slope after it, how "
-         "steep a grid is, by_depth of --depth-rule, "
+         "dist(NAME), to the curves, surfaces and nodes with the tag or the group's name, the "
+         "names of --spacing-grid and, with _slope after them, the slopes of the grids, by_depth "
+         "of --depth-rule, "
          "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
          "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }

@@ -89,7 +89,7 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
   if (arguments.domain.empty())
     throw BadInput(option + " is for the file of --domain, and there is none");
   if (!option.empty() && is_other)
-    throw BadInput(option + " is for GeoJSON, shapefiles and what else GDAL reads, and '" +
+    throw BadInput(option + " is for GeoJSON, shapefiles and other files that GDAL reads, and '" +
                    arguments.domain + "' is none of these");
   return !option.empty() || is_in(ending, geo_endings);
 }

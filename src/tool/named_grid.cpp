@@ -36,7 +36,7 @@ class Words {
     if (!file_) throw BadInput("cannot read '" + path + "': " + std::strerror(errno));
     std::error_code error;  // folders can be opened like files
     if (std::filesystem::is_directory(path, error))
-      throw BadInput("cannot read '" + path + "': it is a folder");
+      throw BadInput("cannot read '" + path + "': it is a folder, not a file");
   }
 
   bool next(std::string& word) {

@@ -142,7 +142,7 @@ std::string GridCoverage::without_data_message() const {
   if (without_data_.count == 0) return "";
   return grid_in_words() +
          " has gaps in the domain: " + text_of(without_data_, "where it has no data") +
-         "; there its values are those of the nearest cells that have some";
+         "; there its values are those of the nearest cells with data";
 }
 
 constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};

@@ -50,7 +50,7 @@ std::string projection_beside(const std::string& path) {
 
 void refuse_to_replace(const std::string& input, const std::string& path) {
   if (!input.empty() && input != "-" && same_file(input, path))
-    throw BadInput("'" + path + "' would replace what is read: write to another file");
+    throw BadInput("'" + path + "' would overwrite an input file: write to another file");
 }
 
 std::string file_of_spacing(const Arguments& arguments) {
@@ -124,7 +124,7 @@ void Outputs::check_particles() const {
       for (const std::string_view name : {"pvtu", "ele", "face"})
         if (output.format->name == name)
           throw BadInput("--output: a ." + output.format->name +
-                         " file has no place for particles, which have no elements: '" +
+                         " file cannot contain particles, which have no elements: '" +
                          output.file.path() + "'");
 }
 
@@ -142,7 +142,7 @@ void Outputs::check_writable() const {
         output.file.is_standard_output() && !ranks_.launched() && ::isatty(STDOUT_FILENO);
     if (to_terminal && output.format && output.format->binary) {
       throw BadInput("a ." + output.format->name +
-                     " file would garble the terminal; redirect standard output");
+                     " file is binary and cannot go to a terminal: redirect standard output");
     }
   }
 }

@@ -114,7 +114,7 @@ START_TEST(another_run_is_told) {
 
   it = square(0.11);
   MUST_COMPUTE(pnpbs_placement_run(it.placement));
-  must_refuse(it, PNPBS_ERROR_SPACING, "it is 0.11, and was 0.1", path);
+  must_refuse(it, PNPBS_ERROR_SPACING, "it is 0.11, and it was 0.1", path);
 
   it = square(0.1);
   MUST(pnpbs_placement_set(it.placement, "time_step", "0.7"));

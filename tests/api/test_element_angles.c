@@ -210,7 +210,7 @@ START_TEST(they_are_enlarged) {
   ck_assert_int_eq(integer_of(it.placement, "unresolved_places"), 0);
   ck_assert_int_eq(elements_below(&enlarged, 15), 0);
   ck_assert_int_gt(integer_of(enlarged.placement, "unresolved_places"), 0);
-  ck_assert_int_eq(warnings_with(enlarged.placement, "is held down there"), 1);
+  ck_assert_int_eq(warnings_with(enlarged.placement, "is reduced there"), 1);
   ck_assert_int_eq(warnings_with(enlarged.placement, "dihedral angles"), 0);
   ck_assert_double_lt((double)integer_of(enlarged.placement, "nodes"),
                       1.3 * (double)integer_of(it.placement, "nodes"));

@@ -281,7 +281,7 @@ START_TEST(every_format_in_space) {
     snprintf(path, sizeof path, "a.%s", name);
     if (is_of_triangles(name)) {
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
-                "none of bodies", path);
+                "not for bodies", path);
       ++of_triangles;
       continue;
     }
@@ -294,7 +294,7 @@ START_TEST(every_format_in_space) {
     MUST(pnpbs_placement_write(it.placement, in_folder(path), 0));
     if (strcmp(name, "csv") == 0 || is_of_particles(name))
       MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_write(it.placement, in_folder(path), 1),
-                "no place for elements", path);
+                "cannot contain elements", path);
     else
       MUST(pnpbs_placement_write(it.placement, in_folder(path), 1));
     ck_assert_int_gt(size_of(path), 100);
@@ -469,7 +469,7 @@ START_TEST(fields_that_are_refused) {
   MUST(pnpbs_placement_count(it.placement, &n));
   values = calloc((size_t)n * 10, sizeof *values);
   for (k = 0; k < COUNT_OF(ours); ++k)
-    must_refuse_field(it.placement, ours[k], n, 1, values, "that files have anyway");
+    must_refuse_field(it.placement, ours[k], n, 1, values, "that files always contain");
   for (k = 0; k < COUNT_OF(bad); ++k)
     must_refuse_field(it.placement, bad[k], n, 1, values, "letters, digits");
   memset(long_name, 'a', 64);
@@ -479,7 +479,7 @@ START_TEST(fields_that_are_refused) {
   must_refuse_field(it.placement, long_name + 1, n, 1, values, "there is an output field");
   must_refuse_field(it.placement, "u", n, 0, values, "components = 0");
   must_refuse_field(it.placement, "u", n, 10, values, "1 to 9");
-  must_refuse_field(it.placement, "u", n - 1, 1, values, "every one has its values");
+  must_refuse_field(it.placement, "u", n - 1, 1, values, "give values for each of them");
   must_refuse_field(it.placement, "u", n, 1, NULL, "values is NULL");
   must_refuse_field(it.placement, NULL, n, 1, values, "name is NULL");
   MUST_BE(PNPBS_ERROR_HANDLE, pnpbs_placement_add_output_field(NULL, "u", n, 1, values));

@@ -344,12 +344,12 @@ START_TEST(particle_files) {
             second)
   REFUSED("mass", "choose another", "mass", n, 1, masses);
   REFUSED("volume", "choose another", "volume", n, 1, masses);
-  REFUSED("particles", "every one has its values", "heat", n - 1, 1, masses);
+  REFUSED("particles", "give values for each of them", "heat", n - 1, 1, masses);
   REFUSED("components = 0", "1 to", "heat", n, 0, masses);
   REFUSED("values", "NULL", "heat", n, 1, NULL);
 #undef REFUSED
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_particles_write(particles, 1, ele, NULL), ".ele",
-            "no place for particles");
+            "cannot contain particles");
   MUST(pnpbs_placement_set_monitor(it.placement, watch, &w));
   remove(csv[0]);
   ck_assert_int_eq(pnpbs_particles_write(particles, 1, csv, NULL), PNPBS_STOPPED);

@@ -190,7 +190,7 @@ START_TEST(a_spacing_larger_than_a_feature) {
   for (k = 0; k < warnings; ++k) {
     const char* text = NULL;
     MUST(pnpbs_placement_get_warning(it.placement, k, &text));
-    found += strstr(text, "larger than the feature") != NULL;
+    found += strstr(text, "larger than features of the boundary") != NULL;
   }
   ck_assert_int_gt(found, 0);
   result_free(&nodes);

@@ -364,7 +364,7 @@ START_TEST(wrong_grids) {
                                              values),
             "argument values[1][0] = 300 and argument values[1][4] = 310 are both at longitude "
             "-180, latitude 0",
-            "a place has one spacing");
+            "a point has one spacing");
   free(values);
   job_end(&it);
 }
@@ -746,7 +746,7 @@ START_TEST(wrong_meshes_and_points) {
   x[3] = 5, x[4] = 0; /* at the position of the first one */
   d[1] = 200;
   MUST_FAIL(PNPBS_ERROR_SPACING, pnpbs_placement_set_spacing_points(p, 3, x, d), "argument d[",
-            "a place has one spacing");
+            "a point has one spacing");
   job_end(&it);
 }
 END_TEST

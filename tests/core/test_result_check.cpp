@@ -93,7 +93,7 @@ START_TEST(finds_two_nodes_in_one_place) {
   expect_complaint([](Placement& p) -> std::vector<std::string> {
     const std::int64_t i = node_near(p, {0.2, 0.2}), j = neighbour_of(p, i);
     nodes_of(p).set_position(i, nodes_of(p).position(j));
-    return {"in one place", id_text(p, i), id_text(p, j), place_text(nodes_of(p).position(j))};
+    return {"at the same point", id_text(p, i), id_text(p, j), place_text(nodes_of(p).position(j))};
   });
 }
 END_TEST
@@ -124,7 +124,7 @@ START_TEST(finds_a_boundary_node_moved_or_missing) {
     nodes_of(p).set_position(i, {0.01, 0.01});
     nodes_of(p).boundary_node(i) = -1;
     nodes_of(p).carrier(i) = pnpbs::Carrier::free;
-    return {"the boundary's node (0, 0) comes 0 times"};
+    return {"the boundary's node (0, 0) occurs 0 times"};
   });
 }
 END_TEST
@@ -139,7 +139,7 @@ START_TEST(finds_a_node_of_a_patch_missing) {
       ++i;
     nodes.boundary_node(i) = -1;
     nodes.carrier(i) = pnpbs::Carrier::free;
-    return {"the boundary's node " + place_text(nodes.position(i)) + " comes 0 times"};
+    return {"the boundary's node " + place_text(nodes.position(i)) + " occurs 0 times"};
   });
 }
 END_TEST

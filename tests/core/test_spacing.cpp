@@ -188,7 +188,7 @@ START_TEST(bad_values_are_named) {
   expect_error(pnpbs::ErrorKind::spacing, {"d = 1e-09 at (0.75, -3)", "2886751345948", "larger d"},
                [&] { evaluate(1e-9); });
   expect_error(pnpbs::ErrorKind::spacing,
-               {"d = 5e-324 at (0.75, -3)", "more nodes than there are numbers for"},
+               {"d = 5e-324 at (0.75, -3)", "more nodes than can be counted"},
                [&] { evaluate(5e-324); });
   evaluate(1e-7);
   const P3 x{1, 2, 3};

@@ -92,7 +92,7 @@ START_TEST(finds_two_nodes_in_one_place) {
   expect_complaint([](Placement3& p) -> std::vector<std::string> {
     const std::int64_t i = inner_node(p), j = neighbour_of(p, i);
     nodes_of(p).set_position(i, nodes_of(p).position(j));
-    return {"in one place", id_text(p, i), id_text(p, j)};
+    return {"at the same point", id_text(p, i), id_text(p, j)};
   });
 }
 END_TEST
@@ -125,7 +125,7 @@ START_TEST(finds_boundary_nodes_moved_or_missing) {
     nodes_of(p).set_position(i, {0.01, 0.01, 0.01});
     nodes_of(p).boundary_node(i) = -1;
     nodes_of(p).carrier(i) = Carrier::free;
-    return {"the boundary's node (0, 0, 0) comes 0 times"};
+    return {"the boundary's node (0, 0, 0) occurs 0 times"};
   });
 }
 END_TEST

@@ -23,6 +23,6 @@ ends() { # argument, exit status, text on standard error
 
 ends library 1 "pnpbs: context%set: unknown option or statistic: "
 ends library 1 "steps"
-ends module 1 "pnpbs: domain%add_hole: invalid argument: argument point has an extent of 1 where 2 is right"
+ends module 1 "pnpbs: domain%add_hole: invalid argument: argument point has an extent of 1; 2 was expected"
 ends stat 1 "pnpbs: domain%create: argument stat must be an integer of four or eight bytes"
 ends outcome 3 ""

@@ -327,7 +327,7 @@ contains
     call domain%check(stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, ' ')
     call domain%add_polyline(PNPBS_BOUNDARY, .true., three, stat=stat, errmsg=errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3 where 2')
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3; 2')
     call domain%add_polyline(PNPBS_BOUNDARY, .true., corners, [1, 2, 3], stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_CAPACITY, errmsg, 'tags has room for 3; 4')
     call domain%add_polyline(17, .true., corners, stat=stat, errmsg=errmsg)

@@ -289,7 +289,7 @@ contains
     call placement%count(nodes)
     allocate (three(3, nodes), ids(2 * nodes), offsets(nodes + 1))
     call placement%get_nodes(three, stat=stat, errmsg=errmsg)
-    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3 where 2')
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has an extent of 3; 2')
     call placement%get_nodes(three(1:2, :), stat=stat, errmsg=errmsg)
     call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'coordinates has gaps in memory')
     call placement%get_nodes(ids=ids(::2), stat=stat, errmsg=errmsg)

@@ -216,7 +216,7 @@ START_TEST(as_they_are) {
   geo_case it = geo_begin(write_geojson("bay.geojson", BAY), "none", NULL, NULL);
   expect_points(it.domain, 4, bay, 1);
   expect_name(it.shapes, "WGS 84", "degree");
-  ck_assert(has_note(it.shapes, "as asked"));
+  ck_assert(has_note(it.shapes, "as requested"));
   geo_end(&it);
 }
 END_TEST
@@ -302,7 +302,7 @@ START_TEST(what_is_no_projection) {
   refuse(BAY, "EPSG:99999999", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:99999999", "EPSG:2180");
   refuse(BAY, "+proj=nonsense", NULL, PNPBS_ERROR_ARGUMENT, "+proj=nonsense", "auto");
   refuse(BAY, "https://example.org/x", NULL, PNPBS_ERROR_ARGUMENT, "https:", "names no projection");
-  refuse(BAY, "EPSG:4326", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:4326", "no distances");
+  refuse(BAY, "EPSG:4326", NULL, PNPBS_ERROR_ARGUMENT, "EPSG:4326", "no lengths");
   refuse(BAY, "auto", "mile", PNPBS_ERROR_ARGUMENT, "mile", "m or km");
   refuse(BAY, "none", "km", PNPBS_ERROR_ARGUMENT, "km", "as they are");
 }

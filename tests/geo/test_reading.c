@@ -93,13 +93,13 @@ START_TEST(vertices_that_only_one_neighbour_has) {
         projections[k], NULL, NULL);
     /* The end of the line lies on a side as well. */
     expect_counts(it.shapes, 9, 3, 2, 0);
-    ck_assert(!has_note(it.shapes, "all but touch"));
+    ck_assert(!has_note(it.shapes, "almost touch"));
     geo_end(&it);
   }
   {
     geo_case it = begin(FEATURE("Polygon", "[[[18,54],[19,54],[19,55],[18,55]]]") "," FEATURE(
         "Polygon", "[[[19,54],[20,54],[20,55],[19,55],[19.000001,54.5]]]"));
-    ck_assert(has_note(it.shapes, "features 1 and 0 all but touch at (19.000001, 54.5)"));
+    ck_assert(has_note(it.shapes, "features 1 and 0 almost touch at (19.000001, 54.5)"));
     geo_end(&it);
   }
 }
@@ -330,7 +330,7 @@ START_TEST(shapefile_without_its_companions) {
   pnpbs_geo_shapes shapes = NULL;
   write_layers("ESRI Shapefile", path, 1, 0);
   it = geo_begin(path, NULL, NULL, NULL);
-  ck_assert(has_note(it.shapes, "does not say what its coordinates are"));
+  ck_assert(has_note(it.shapes, "has no coordinate reference system"));
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_str_eq(name, "");
   GEO_MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_geo_write_prj(it.shapes, path), "does not say",

@@ -857,7 +857,8 @@ START_TEST(bad_callbacks) {
   };
   using P = pnpbs::Point<2>;
   expect_argument_error({"curve is NULL"}, add(nullptr));
-  expect_argument_error({"curve 0: the callback gave (nan, 0) at t = 0.5"}, add(fill([](double t) {
+  expect_argument_error({"curve 0: the callback returned (nan, 0) at t = 0.5"},
+                        add(fill([](double t) {
                           return P{t == 0.5 ? nan_value : t, 0};
                         })));
   expect_argument_error({"curve 0 is a single point, (1, 2)"}, add(fill([](double) {

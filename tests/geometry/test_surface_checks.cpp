@@ -126,7 +126,7 @@ START_TEST(triangles_without_area_go_and_leave_the_surface_closed) {
   VolumeDomain domain;
   check_soup(soup, domain);
   ck_assert(warns(
-      domain, "2 triangles have no area to speak of and are left out; the first is triangle 5 of"));
+      domain, "2 triangles have a negligible area and are left out; the first is triangle 5 of"));
   ck_assert(is_closed(domain.mesh()));
   ck_assert_uint_eq(domain.mesh().facets.size(), 6);
   expect_near(domain.volume(), 1.0 / 6, 1e-15);
@@ -299,9 +299,9 @@ START_TEST(triangles_turned_at_random_are_mended_to_the_same_mesh) {
       if (random.below(4) < of_four) soup.turn(t), ++turns;
     VolumeDomain domain;
     check_soup(soup, domain);
-    ck_assert(warns(domain, "turned around to agree with the neighbours; the first is triangle"));
-    if (of_four == 1)
-      ck_assert(warns(domain, std::to_string(turns) + " triangles were turned around"));
+    ck_assert(
+        warns(domain, "reversed to be oriented as the neighbours are; the first is triangle"));
+    if (of_four == 1) ck_assert(warns(domain, std::to_string(turns) + " triangles were reversed"));
     ck_assert_int_eq(warns(domain, "inside out"), of_four == 3);
     ck_assert(places_of(domain) == places_of(reference));
     ck_assert(domain.volume() == reference.volume() && domain.area() == reference.area());
@@ -312,7 +312,7 @@ END_TEST
 START_TEST(bodies_that_are_inside_out_are_turned) {
   VolumeDomain domain;
   check_soup(unit_tetrahedron().turned(), domain);
-  ck_assert(warns(domain, "inside out and turned around: surface 0"));
+  ck_assert(warns(domain, "oriented inside out and reversed: surface 0"));
   expect_near(domain.volume(), 1.0 / 6, 1e-15);
 }
 END_TEST
@@ -336,8 +336,8 @@ START_TEST(a_moebius_strip_is_refused) {
   VolumeDomain domain;
   domain.add_box({-2, -2, -2}, {2, 2, 2}, 1);
   soup.add_to(domain, SurfaceRole::inner);
-  expect_domain_error(domain, {"the surface has but one side, as a Moebius strip has",
-                               "of surface 0", "at vertex"});
+  expect_domain_error(
+      domain, {"the surface has one side only, like a Moebius strip", "of surface 0", "at vertex"});
 }
 END_TEST
 

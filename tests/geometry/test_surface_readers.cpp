@@ -214,8 +214,10 @@ START_TEST(off_errors) {
   expect({"x:12: there is no vertex -1"}, replaced(text, "3 0 1 2", "3 0 -1 2"));
   expect({"x:12: found '1.5', expected a vertex number"}, replaced(text, "3 0 1 2", "3 0 1.5 2"));
   expect({"x:12: the line ends, expected a vertex number"}, replaced(text, "3 0 1 2", "4 0 1 2"));
-  expect({"x:12: a polygon of 2 corners is none"}, replaced(text, "3 0 1 2", "2 0 1"));
-  expect({"x:12: a polygon of 0 corners is none"}, replaced(text, "3 0 1 2", "0"));
+  expect({"x:12: a polygon of 2 corners has no area, expected 3 corners"},
+         replaced(text, "3 0 1 2", "2 0 1"));
+  expect({"x:12: a polygon of 0 corners has no area, expected 3 corners"},
+         replaced(text, "3 0 1 2", "0"));
   expect({"x:12: the number of corners is -3"}, replaced(text, "3 0 1 2", "-3 0 1 2"));
   expect({"x:12: a polygon of 4 corners has a vertex twice"},
          replaced(text, "3 0 1 2", "4 0 1 2 1"));

@@ -67,7 +67,8 @@ START_TEST(ply_errors) {
   expect({"x:5: found 'real', expected a type"}, replaced(text, "double x", "real x"));
   expect({"x:5: the line ends, expected the name of a property"},
          replaced(text, "double x", "double"));
-  expect({"x:9: a list is counted by an integer type"}, replaced(text, "uchar int", "float int"));
+  expect({"x:9: the length of a list has a real type, expected an integer type"},
+         replaced(text, "uchar int", "float int"));
   expect({"the file ends, expected a line of the header"},
          text.substr(0, text.find("element face")));
   expect({"the header has no property z of vertices"}, replaced(text, "double z", "double w"));
@@ -82,7 +83,8 @@ START_TEST(ply_errors) {
   expect({"x:12: found 'nan', expected y"}, replaced(text, "\n1 2 0\n", "\n1 nan 0\n"));
   expect({"x:19: there is no vertex 8, expected 0 to 7"}, replaced(text, "3 0 1 2", "3 0 8 2"));
   expect({"x:19: the length of vertex_indices is negative"}, replaced(text, "3 0 1 2", "-3 0 1 2"));
-  expect({"x:19: a polygon of 1 corners is none"}, replaced(text, "3 0 1 2", "1 0"));
+  expect({"x:19: a polygon of 1 corners has no area, expected 3 corners"},
+         replaced(text, "3 0 1 2", "1 0"));
   expect({"the file ends after 12 of 13 face"}, replaced(text, "face 12", "face 13"));
   expect({"x:30: found more than the header declares"}, replaced(text, "face 12", "face 11"));
   expect({"x: holds zero bytes"}, text + std::string("\0", 1));
@@ -168,12 +170,13 @@ START_TEST(tetgen_errors) {
   expect({"x:10: found 2, expected the number of boundary markers"},
          replaced(text, "\n12 0\n", "\n12 2\n"));
   expect({"x:11: the facet has no polygon"}, replaced(text, "1\n3 0 1 2", "0\n3 0 1 2"));
-  expect({"x:11: the facet has holes: expected polygons without any"},
+  expect({"x:11: the facet has holes: divide it into polygons without holes"},
          replaced(text, "1\n3 0 1 2", "2 1\n3 0 1 2"));
   expect({"x:11: the line ends, expected a boundary marker"},
          replaced(text, "\n12 0\n", "\n12 1\n"));
   expect({"x:12: there is no vertex 8, expected 0 to 7"}, replaced(text, "3 0 1 2", "3 0 1 8"));
-  expect({"x:12: a polygon of 2 corners is none"}, replaced(text, "3 0 1 2", "2 0 1"));
+  expect({"x:12: a polygon of 2 corners has no area, expected 3 corners"},
+         replaced(text, "3 0 1 2", "2 0 1"));
   expect({"the file ends after 12 of 13 facets"},
          replaced(text, "\n12 0\n", "\n13 0\n").substr(0, text.size() - 2));
   expect({"the file ends after 38 of 4000000000 corners"},

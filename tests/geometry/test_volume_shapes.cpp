@@ -498,7 +498,7 @@ START_TEST(domains_without_a_boundary_or_size_are_refused) {
   far.add_box({1e12, 0, 0}, {1e12 + 1, 1, 1}, 1);
   expect_domain_error(far, {"the domain's size is 1, less than 1e-10 of its distance from the "
                             "origin, as at (1e+12, 0, 0)",
-                            "move it nearer"});
+                            "move the domain closer to the origin"});
 }
 END_TEST
 

@@ -110,9 +110,9 @@ class Shapes(unittest.TestCase):
         np.testing.assert_allclose(d, [wave[0], min(wave[1], 2 * np.pi * 100 / 800), *wave[2:]])
         with self.assertRaisesRegex(PNPBSError, r"depths\[0\] is not a number"):
             pnpbs.depth_spacing([np.nan])
-        with self.assertRaisesRegex(ValueError, "slopes of the depths are missing"):
+        with self.assertRaisesRegex(ValueError, "requires the argument slopes"):
             pnpbs.depth_spacing(h, slope=20)
-        with self.assertRaisesRegex(ValueError, "one number of values"):
+        with self.assertRaisesRegex(ValueError, "vectors of the same length"):
             pnpbs.depth_spacing(h, [1.0])
 
     def test_errors(self):

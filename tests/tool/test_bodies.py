@@ -192,7 +192,7 @@ class Files(CommandTest):
     def test_repair_if_needed(self):
         self.save_cube_without_lid("open.off")
         _, err = self.place_body("open.off", "0.2", "-o", "a.vtu", "--check", "--repair", "auto")
-        self.assertIn("the body is repaired, as it is refused otherwise: ", err)
+        self.assertIn("the body is repaired, because it is refused otherwise: ", err)
         # The cube has a fin of a third of d. The fin is lost in the elements, so automatic repair
         # removes it.
         self.save_cube_with_fin("fin.off", half_width=0.055)
@@ -212,7 +212,7 @@ class Files(CommandTest):
         out, err = self.place_body("fin.off", "0.2", "-o", "a.vtu", "--repair", "auto")
         self.assertIn("volume 1.15,", out)
         self.assertNotIn("repaired", err)
-        self.assertIn("name the resolution", self.refuse(
+        self.assertIn("give the resolution", self.refuse(
             "--domain", "fin.off", "--spacing", "0.2", "--repair", "auto", "--checkpoint", "c",
             "-o", "a.vtu"))
 

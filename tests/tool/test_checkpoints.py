@@ -113,8 +113,8 @@ class Checkpoints(CommandTest):
                     "--checkpoint", "a.vtkhdf")
         again = ("--domain", self.square, "--spacing", "0.2", "--restart", "a.vtkhdf")
         forgotten = self.refuse(*again)
-        self.assertIn("set steps=20 to go on as before, or another value", forgotten)
-        self.assertIn("decides on the spacing",
+        self.assertIn("set steps=20 to continue as before, or another value", forgotten)
+        self.assertIn("the spacing depends on it",
                       self.refuse(*again, "--set", "steps=20", "--set", "growth_limit=0.1"))
         self.assertIn("set the same options",
                       self.refuse(*again, "--set", "steps=30", "--set", "restart_options=same"))

@@ -106,7 +106,7 @@ class InThePlane(BayTest):
             with self.subTest(more):
                 self.assertIn(words, self.refuse(*self.ask, "--depth-rule", *more))
         message = self.refuse(*self.ask, "--depth-rule", "d.tif", "--format", "csv", "-o", "d.tif")
-        self.assertIn("would replace", message)
+        self.assertIn("would overwrite", message)
 
     def test_a_raster_elsewhere_and_of_a_part(self):
         write_geotiff(self.folder / "e.tif", self.depths(30, 55.5, 0.05, 60, 40), 30, 55.5, 0.05,

@@ -386,7 +386,7 @@ class Replacing(CommandTest):
             with self.subTest(output):
                 message = self.refuse("--domain", self.square, "--spacing", "0.1",
                                       "--output", output, "--format", "csv")
-                self.assertIn("would replace what is read", message)
+                self.assertIn("would overwrite an input file", message)
         self.assertIn("replace", self.refuse("--domain", self.square, "--spacing", "0.1",
                                              "--report", "square.poly"))
         self.assertEqual(self.square.read_text(), before)

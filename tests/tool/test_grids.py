@@ -202,7 +202,7 @@ class Formulas(GridsTest):
                 (("h=", "--spacing", "h"), "NAME=FILE"),
                 (("h=none.asc", "--spacing", "h"), "none.asc")):
             self.assertIn(word, self.refuse(*ask, *more))
-        self.assertIn("would replace", self.refuse("--domain", self.square, "--spacing-grid",
+        self.assertIn("would overwrite", self.refuse("--domain", self.square, "--spacing-grid",
                                                    "h=g.asc", "--spacing", "h", "-o", "g.asc",
                                                    "--format", "csv"))
 

@@ -140,7 +140,7 @@ class Bodies(CommandTest):
     def test_resolve_is_named_where_it_asks_for_too_many(self):
         thin = "box(0,0,0, 1,1,0.01)"
         asked = ("--set", "max_nodes=2000")
-        self.assertIn("the option resolve holds d down",
+        self.assertIn("the option resolve reduces d",
                       self.refuse_body(thin, *asked, "--set", "resolve=1", spacing="0.2"))
         self.assertNotIn("resolve", self.refuse_body(thin, *asked, spacing="0.004"))
 

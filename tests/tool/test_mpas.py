@@ -270,7 +270,7 @@ class MpasGrids(CommandTest):
         for name in ("grid.mpas", "grid.graph"):
             message = self.refuse("--domain", pond, "--sphere", f"{RADIUS},0,-90", "--spacing", "500e3", "--quiet",
                                   "--output", name)
-            self.assertIn("would have none: all nodes are on the boundary", message)
+            self.assertIn("would have no cells, because all nodes are on the boundary", message)
 
     @exists_if(os.environ["PNPBS_GEO"] == "1")
     def test_a_sea_is_a_culled_grid(self):

@@ -199,18 +199,18 @@ class Refused(CommandTest):
     def test_without_density(self):
         for name in ("lammps", "hdf5"):
             for output in ((f"a.{name}",), ("a.dat", "--format", name)):
-                self.assertIn(f"a .{name} file needs the density of particles: --density",
+                self.assertIn(f"a .{name} file needs the density of particles: give --density",
                               self.ask("-o", *output))
 
     def test_in_the_plane(self):
         for name in ("peridigm", "lammps"):
-            self.assertIn(f"a .{name} file is of bodies, none of the plane",
+            self.assertIn(f"a .{name} file is for bodies, not for the plane",
                           self.ask("--domain", self.square, "--spacing", "0.1", *DENSITY[:1], "1",
                                    "-o", f"a.{name}"))
 
     def test_on_surfaces(self):
         for name in ("peridigm", "lammps", "hdf5"):
-            self.assertIn(f"a .{name} file is of bodies, and --surfaces-only",
+            self.assertIn(f"a .{name} file is for bodies, and with --surfaces-only",
                           self.ask("--domain", "box(1,0,-1, 3,2,1)", "--spacing", "0.5", *DENSITY,
                                    "--surfaces-only", "-o", f"a.{name}"))
 

@@ -306,7 +306,7 @@ class Command(RegionTest):
                       self.refuse(*square, "0.1,0.1,0:3"))
         box = ("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.5", "--region")
         self.assertIn("--region: expected X,Y,Z:TAG for this domain", self.refuse(*box, "0,0:3"))
-        self.assertIn("--region is for what is inside",
+        self.assertIn("--region is for the inside of bodies",
                       self.refuse(*box, "0.5,0.5,0.5:3", "--surfaces-only"))
         self.assertIn("region 0 at (0.5, 0.5) lies outside the domain",
                       self.refuse(*square, "0.5,0.5:3"))

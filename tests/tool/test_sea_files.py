@@ -278,10 +278,10 @@ class SeaFiles(CommandTest):
     def test_what_is_refused(self):
         for name in ("a.gr3", "a.2dm", "a.ugrid"):
             message = self.refuse("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.4", "-o", name)
-            self.assertIn(f"a {name[1:]} file is of triangles of the plane or a sphere, none of bodies: '{name}'",
+            self.assertIn(f"a {name[1:]} file is for triangles in the plane or on a sphere, not for bodies: '{name}'",
                           message)
             message = self.refuse("--domain", self.square, "--spacing", "0.1", "--nodes-at", "centers", "-o", name)
-            self.assertIn(f"a {name[1:]} file has no place for particles", message)
+            self.assertIn(f"a {name[1:]} file cannot contain particles", message)
 
     @exists_if("PNPBS_MPIEXEC" in os.environ)
     def test_ranks_write_the_same_bytes(self):

@@ -169,7 +169,7 @@ class Shapes(ShapesTest):
         prj = self.folder / "land.prj"
         prj.write_text("the input's")
         message = self.refuse("--domain", "land.shp", "--spacing", "20", "--output", "land.vtu")
-        self.assertIn("land.prj' would replace what is read", message)
+        self.assertIn("land.prj' would overwrite an input file", message)
         self.assertEqual(prj.read_text(), "the input's")
         # The .prj file beside the GeoJSON file is our own from the previous run, so it may be
         # replaced.

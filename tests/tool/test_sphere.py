@@ -100,7 +100,7 @@ class WholeSphere(CommandTest):
         self.assertTrue(all_of_them < len(shown) < 1.2 * all_of_them, f"{len(shown)} of {all_of_them}")
         for view in ("0", "0,91", "maps"):
             self.assertIn("--view: expected LON,LAT", self.refuse("--sphere", "1", "--spacing", "1", "--view", view))
-        self.assertIn("give --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
+        self.assertIn("it needs --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
 
     def test_nodes_follow_the_spacing_beside_the_patch(self):
         """Checks that no d is missed near the centre of projection. There d in the chart changes as
@@ -182,7 +182,7 @@ class WholeSphere(CommandTest):
             self.assertIn(words, self.refuse("--sphere", str(RADIUS), "--spacing", spacing))
         self.assertIn("--domain is missing", self.refuse("--spacing", "1"))
         self.assertIn("--bubbles exclude", self.refuse("--sphere", "1", "--spacing", "0.3", "--bubbles"))
-        self.assertIn("none on a sphere", self.refuse("--sphere", "1", "--spacing", "0.3", "--density", "1", "-q",
+        self.assertIn("not on a sphere", self.refuse("--sphere", "1", "--spacing", "0.3", "--density", "1", "-q",
                                                       "--output", "gas.hdf5"))
 
 
@@ -347,7 +347,7 @@ class Sphere(CommandTest):
             coast = self.sea(feature([[lon, -74] for lon in range(-180, 180, 5)] + cut), CONTINENT)
             x, _, _, err = self.placed(coast=coast)
             self.assertAlmostEqual(np.degrees(np.arcsin(x[:, 2].min() / RADIUS)), -74, delta=0.1)
-            self.assertEqual("there and back" in err, bool(cut))
+            self.assertEqual("traversed in both directions" in err, bool(cut))
             triangles, edges = self.triangles()
             self.assertEqual(len(x) - (3 * len(triangles) + len(edges)) // 2 + len(triangles), 2 - 2)
 

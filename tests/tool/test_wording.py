@@ -45,7 +45,7 @@ class Wording(CommandTest):
     def test_a_poly_file(self):
         small = ("--domain", self.square, "--spacing", "0.5", "-o", "a.csv")
         true, wordless = self.same(*small, code=DONE)
-        self.assertIn("the spacing is larger than the feature", true)
+        self.assertIn("the spacing is larger than features of the boundary", true)
         self.assertRegex(wordless, r"warning: x+ x+ x+ x+ x+ ")
         self.same(*small, "--set", "steps=x", code=BAD_INPUT)
         self.same("--domain", self.square, "--spacing", "-1", code=BAD_INPUT)

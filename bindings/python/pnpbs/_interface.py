@@ -287,7 +287,7 @@ class _Array:
     def from_param(cls, value: Any) -> Any:
         if isinstance(value, np.ndarray):
             if value.dtype != cls.dtype or not value.flags.c_contiguous:
-                raise TypeError(f"an array of {cls.dtype} in the order of C was expected")
+                raise TypeError(f"a C-contiguous array of {cls.dtype} was expected")
             value = value.ctypes.data
         return ctypes.c_void_p.from_param(value)
 

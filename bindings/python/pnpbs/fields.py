@@ -87,7 +87,7 @@ class Fields(PlacementHandle):
             return
         # An invalid call informs the library and thus the other ranks, which otherwise block.
         getattr(library(), f"pnpbs_placement_{name}")(self._live(), -1, 1, None)
-        raise ValueError("values must be an array of float64, in the order of C, that can be changed")
+        raise ValueError("values must be a writable, C-contiguous array of float64")
 
     # The result type is Any, because it depends on the shape of the values.
     def sum(self, values: ArrayLike) -> Any:

@@ -135,7 +135,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
             self._call("set_spacing_callback", callback, None)
         elif np.asarray(d).dtype.kind not in "fiu":
             raise TypeError(f"d is {d!r}: a number, a function or an array of real numbers was "
-                            "expected (set_spacing_from_shape: what the shape asks for)")
+                            "expected; for a spacing from the shape use set_spacing_from_shape")
         elif np.ndim(d) == 0:
             self._call("set_spacing_constant", d)
         elif origin is not None or step is not None:

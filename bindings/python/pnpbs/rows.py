@@ -36,7 +36,7 @@ class CompressedRows(Sequence["NDArray[Scalar]"], Generic[Scalar]):
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
         if not -len(self) <= i < len(self):
-            raise IndexError(f"row {i} of {len(self)}")
+            raise IndexError(f"row index {i} is out of range for {len(self)} rows")
         i = i % len(self)
         return self.values[self.offsets[i]:self.offsets[i + 1]]
 

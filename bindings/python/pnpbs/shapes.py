@@ -72,8 +72,8 @@ def _library() -> ctypes.CDLL:
         try:
             opened = ctypes.CDLL(str(beside) if beside.exists() else _SONAME)
         except OSError as error:
-            raise ImportError(f"the library that reads shapes could not be opened: {error}; it is "
-                              "there where PNPBS was built with GDAL") from error
+            raise ImportError(f"the library that reads shapes could not be opened: {error}; it "
+                              "exists only if PNPBS was built with GDAL") from error
         _opened = declared(opened, DECLARATIONS)
     return _opened
 
@@ -365,13 +365,13 @@ def depth_spacing(depths: ArrayLike, slopes: Optional[ArrayLike] = None, *, wave
             pnpbs.depth_spacing(depth(x), depth.slopes(x), slope=20, metres=1000), 0.5, 20))
     """
     if slope > 0 and slopes is None:
-        raise ValueError(f"slope = {slope}: the slopes of the depths are missing")
+        raise ValueError(f"slope is {slope}, which requires the argument slopes")
     h = np.ascontiguousarray(np.atleast_1d(depths), float)
     steep = np.zeros_like(h) if slopes is None else np.ascontiguousarray(np.atleast_1d(slopes),
                                                                          float)
     if h.ndim != 1 or steep.shape != h.shape:
-        raise ValueError(f"depths and slopes have shapes {h.shape} and {steep.shape}, expected one "
-                         "number of values")
+        raise ValueError(f"depths and slopes have shapes {h.shape} and {steep.shape}; vectors of "
+                         "the same length were expected")
     d = np.zeros_like(h)
     _check(_library().pnpbs_geo_depth_spacing(len(h), h, steep, wave, period, slope, least, metres,
                                               d))

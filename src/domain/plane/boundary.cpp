@@ -269,7 +269,8 @@ class BoundaryDiscretizer {
     }
     throw Error(ErrorKind::domain,
                 "curves are too close together to place nodes on them: " + list_text(names) +
-                    " about " + (edges.empty() ? "" : point_text(positions_[ends_[edges[0]][0]])));
+                    (edges.empty() ? MessageText()
+                                   : " near " + point_text(positions_[ends_[edges[0]][0]])));
   }
 
   // ------------------------------------------------------------ warnings
@@ -284,8 +285,8 @@ class BoundaryDiscretizer {
     if (names.empty()) return;
     boundary_.warnings.emplace_back(
         WarningCode::feature_unresolved,
-        "the spacing is larger than the feature: " + std::to_string(count) +
-            " boundary edges that would have cut across others were halved, on " +
+        "the spacing is larger than features of the boundary: " + std::to_string(count) +
+            " boundary edges that would have crossed others were halved, on " +
             list_text(names, kNamedWorst),
         count);
   }
@@ -338,7 +339,7 @@ class BoundaryDiscretizer {
     if (all.empty()) return;
     boundary_.warnings.push_back(warning_of_worst(
         WarningCode::feature_unresolved,
-        "the spacing is larger than the feature at " + std::to_string(all.size()) +
+        "the spacing is larger than features of the boundary at " + std::to_string(all.size()) +
             " boundary edges shorter than half of it; the worst: ",
         all, "length", domain_.embedding(),
         [this](std::int32_t e) { return track(e).curve().name; },
@@ -374,7 +375,7 @@ class BoundaryDiscretizer {
     if (nearest.empty()) return;
     boundary_.warnings.push_back(warning_of_worst(
         WarningCode::feature_unresolved,
-        "the spacing is larger than the feature at " + std::to_string(nearest.size()) +
+        "the spacing is larger than features of the boundary at " + std::to_string(nearest.size()) +
             " boundary nodes closer than a tenth of it to another edge; the worst: beside ",
         nearest, "distance", domain_.embedding(),
         [this](std::int32_t e) { return track(e).curve().name; }));

@@ -182,7 +182,7 @@ class Joiner {
         if (ends[0] == ends[1]) {
           reject_domain(source.segment_name(i) + " is too short at " +
                         point_text(graph_.vertices[ends[0]].position) +
-                        ": its ends count as the same place in a domain of size " +
+                        ": its ends count as the same point in a domain of size " +
                         number_text(graph_.size));
         }
         graph_.ends.push_back(ends);

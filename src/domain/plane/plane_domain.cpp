@@ -64,7 +64,8 @@ std::vector<std::int64_t> apart(const std::vector<Point<3>>& vertices, bool clos
     kept.push_back(n - 1);
   }
   while (closed && kept.size() > 1 && same(kept.back(), 0)) kept.pop_back();
-  if (kept.size() < (closed ? 3 : 2)) reject("the curve has no extent: its vertices are one place");
+  if (kept.size() < (closed ? 3 : 2))
+    reject("the curve has no extent: all its vertices are the same point");
   return kept;
 }
 
@@ -165,11 +166,12 @@ void PlaneDomain::add_great_circle_arc(CurveSource& source, const std::vector<Po
   const Point<3> next = place(next_v < 0 ? v : next_v);
   if (angle_between(place(v), next) > kNearlyOpposite)
     reject("vertices " + vertex_text(v, place(v)) + " and " + vertex_text(next_v, next) +
-           " are opposite points of the sphere: no way between them is the shortest");
+           " are opposite points of the sphere: the shortest arc between them is not unique");
   if (angle_to_arc(embedding_.chart().projection_centre(), place(v), next) < kSame)
-    reject("vertex " + vertex_text(v, place(v)) +
-           ", or the way from it to the next: the point that is named as outside of the domain "
-           "lies on the curve");
+    reject(
+        "vertex " + vertex_text(v, place(v)) +
+        ": the point that is named as outside of the domain lies on the curve, at this vertex or "
+        "between it and the next: name another point");
   add(embedding_.chart().in_chart(place(v)), false);
   if (next_v < 0) return;
   add_segment();
@@ -260,8 +262,8 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   if (left_out.vertices > 0)
     given_warnings_.emplace_back(WarningCode::simplified,
                                  "simplified: " + std::to_string(left_out.vertices) +
-                                     " vertices were left out, of them those of " +
-                                     std::to_string(left_out.curves) + " closed curves as a whole",
+                                     " vertices were left out, including all of " +
+                                     std::to_string(left_out.curves) + " closed curves",
                                  left_out.vertices);
   checked_ = false;
   return left_out;
@@ -290,8 +292,8 @@ void PlaneDomain::require_patch_empty(const ClosingPatch& patch) const {
   const auto require_outside = [&](const Point<2>& u) {
     if (dot(u, u) < patch.edge * patch.edge) return;
     reject_domain(
-        "on a whole sphere nodes are laid first about the point that is named as outside "
-        "of the domain, up to 12 spacings from it, and a curve or a fixed node is there, at " +
+        "on a whole sphere a curve or a fixed node lies closer than 12 spacings to the point that "
+        "is named as outside of the domain, at " +
         point_text(u) + ": name another point");
   };
   for_given_points(require_outside);
@@ -353,7 +355,7 @@ void PlaneDomain::check_open_sphere() {
   for (const RegionPoint<2>& point : region_points_)
     if (point.is_hole())
       reject_domain("a whole sphere has no holes, and there is one at " + point_text(point.point) +
-                    ": curves around it with the role of a boundary bound the domain there");
+                    ": add boundary curves around it instead");
   constexpr double kNextToNothing = 1e-3;  // radians
   PlaneDomain closed = *this;
   ClosingPatch patch;

@@ -57,7 +57,7 @@ std::vector<Point<2>> curve_points(const CurveFunction& curve,
   curve(static_cast<std::int64_t>(points.size()), parameters.data(), points.data());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_usable(points[i])) continue;
-    throw Error(ErrorKind::argument, name + ": the callback gave " + point_text(points[i]) +
+    throw Error(ErrorKind::argument, name + ": the callback returned " + point_text(points[i]) +
                                          " at t = " + number_text(parameters[i]));
   }
   return points;
@@ -102,8 +102,7 @@ CurveSamples sample_curve(const CurveFunction& curve, double begin, double end,
     samples = std::move(finer);
     open = std::move(still_open);
     if (samples.points.size() > kMaxSamples) {
-      throw Error(ErrorKind::argument, name + " turns too often to be followed: more than " +
-                                           std::to_string(kMaxSamples) +
+      throw Error(ErrorKind::argument, name + " turns too often: " + std::to_string(kMaxSamples) +
                                            " samples do not resolve it");
     }
   }

@@ -41,7 +41,7 @@ void check_against_surface(CurveSegment& segment, const Triangulation& surface,
   if (met < 0) return;
   const Point<3> place = meeting_point(x, y, surface.corners(met));
   reject_domain(segment.name + " meets " + surface.triangle_name(met) + " at " + point_text(place) +
-                ": they may meet in common vertices only");
+                ": a curve and a surface may meet in common vertices only");
 }
 
 // Returns true if one of two segments with a common end lies on the other.
@@ -84,7 +84,7 @@ std::vector<CurveSegment> make_segments(const std::vector<InnerPolyline>& polyli
       const auto& [begin, end] = segments.back().ends;
       if (begin == end)
         reject_domain(segments.back().name + " is too short at " + point_text(vertices[begin]) +
-                      ": its ends count as the same place");
+                      ": its ends count as the same point");
     }
     first += curve.points.size();
   }

@@ -399,7 +399,7 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
   resolved->warnings.emplace_back(
       WarningCode::repaired,
       "not repaired: the body is sound as it is given; pnpbs_domain_set_resurfaced (in the command "
-      "--resurface) replaces its surface all the same",
+      "--resurface) replaces its surface nevertheless",
       0);
   return resolved;
 }
@@ -428,9 +428,10 @@ void VolumeDomain::check() {
       resolved = resolve();
     } catch (const BrokenSurface& error) {
       if (!filled_) throw;
-      reject_domain(error.message() +
-                    "; pnpbs_domain_set_repair (in the command --repair) takes what such triangles "
-                    "enclose");
+      reject_domain(
+          error.message() +
+          "; pnpbs_domain_set_repair (in the command --repair) accepts such triangles and "
+          "uses the body that they enclose");
     }
   }
   if (resolved->repair.resolution == 0) resolved->repair = taken_distances_;

@@ -327,7 +327,7 @@ class Resolver {
     }
     if (names.empty()) return;
     result_.warnings.emplace_back(WarningCode::triangles_turned,
-                                  "inside out and turned around: " + list_text(names, 5),
+                                  "oriented inside out and reversed: " + list_text(names, 5),
                                   std::accumulate(turned.begin(), turned.end(), std::int64_t{0}));
   }
 
@@ -345,7 +345,7 @@ class Resolver {
     const auto given = std::ranges::find(region_points_, false, &RegionPoint<3>::from_file);
     if (!filled_ && given != region_points_.end())
       reject_domain(name_and_position<3>(*given) +
-                    ": a domain of surfaces alone has no inside, of which to take out or tag any");
+                    ": a domain of surfaces alone has no inside, and so neither holes nor regions");
     if (!filled_) return;
     const auto region_of = [this](std::size_t k) { return region_of_point(k); };
     remove_holes(region_points_, region_of, inside_, result_.warnings);

@@ -35,9 +35,9 @@ void LevelGeometry<2>::require_one_triangle_left() const {
   const auto edges = std::ranges::count_if(boundary_.facets, &BoundaryEdge::bounds);
   if (edges != 3)
     throw Error(ErrorKind::spacing,
-                "the spacing varies so much beside the point that is named as outside that what "
-                "closes the sphere there leaves " +
-                    std::to_string(edges) + " edges open, not 3: name another point");
+                "the spacing varies too much around the point that is named as outside of the "
+                "domain: the patch that closes the sphere there has " +
+                    std::to_string(edges) + " open edges, not 3; name another point");
 }
 
 SpacingEvaluator<2> LevelGeometry<2>::evaluator() const {

@@ -26,7 +26,8 @@ FileField parse_msh_field(std::string_view bytes, const std::string& name,
     const std::int32_t node = nodes.at(field.node_tags[i]);
     if (node < 0)
       throw Error(ErrorKind::file, name + ": '" + field.name + "' has a value at node " +
-                                       std::to_string(field.node_tags[i]) + ", which there is not");
+                                       std::to_string(field.node_tags[i]) +
+                                       ", which does not exist");
     file.values[static_cast<std::size_t>(node)] = field.values[i];
   }
 

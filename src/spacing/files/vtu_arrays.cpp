@@ -179,7 +179,7 @@ void VtuFile::take_header(const XmlTags& xml) {
   if (words == "UInt64") word_size_ = 8;
   const std::string compressor = xml.attribute("compressor");
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-    fail("packed by " + shown_field(compressor) +
+    fail("found compressor " + shown_field(compressor) +
          ", expected vtkZLibDataCompressor or none: write it with another compressor (in "
          "ParaView's Save Data: Compressor Type)");
   packed_ = !compressor.empty();
@@ -198,11 +198,12 @@ std::string VtuFile::called(const VtuArray& array) const {
 
 std::uint64_t VtuFile::word(ByteSource& source, const VtuArray& array) const {
   std::string bytes;
-  if (!source.take(word_size_, bytes)) fail(called(array) + " ends before its numbers begin");
+  if (!source.take(word_size_, bytes)) fail(called(array) + " ends in its header");
   const auto number = word_size_ == 8 ? number_at<std::uint64_t> : number_at<std::uint32_t>;
   const double value = number(bytes.data(), order_);
   constexpr double kMax = 9007199254740992;  // 2^53
-  if (value > kMax) fail(called(array) + " says that it has " + number_text(value) + " bytes");
+  if (value > kMax)
+    fail(called(array) + " has an impossible size, " + number_text(value) + " bytes");
   return static_cast<std::uint64_t>(value);
 }
 
@@ -235,7 +236,7 @@ std::string VtuFile::read_packed(const VtuArray& array, ByteSource& source,
     if (!source.take(packed[b], block)) fail(called(array) + " ends before its blocks do");
     const auto part = inflated(block, unpacked);
     if (!part)
-      fail(called(array) + ": its compressed data are damaged, in block " + std::to_string(b + 1) +
+      fail(called(array) + ": the compressed data are damaged in block " + std::to_string(b + 1) +
            " of " + std::to_string(blocks));
     result += *part;
   }

@@ -22,7 +22,7 @@ function open_library()
         dlopen(isfile(beside) ? beside : name, RTLD_LAZY | RTLD_LOCAL)
     catch e
         error("cannot open the library that reads shapes: $(sprint(showerror, e))\n",
-              "It is there where PNPBS was built with GDAL.")
+              "It exists only if PNPBS was built with GDAL.")
     end
     return opened[]
 end

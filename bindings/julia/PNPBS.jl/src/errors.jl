@@ -45,7 +45,7 @@ end
 # Throws unless `values` has n entries. The message names the argument of the Julia function.
 function require_length(values, n, what)
     length(values) == n ||
-        throw(DimensionMismatch("$what has length $(length(values)); $n expected"))
+        throw(DimensionMismatch("$what has length $(length(values)); $n was expected"))
     return nothing
 end
 

@@ -23,7 +23,8 @@ end
 
 # Returns the nodes of this rank, and the path of the edges between them. Collective.
 function picture(placement::Placement, edges)
-    ndims(placement) == 2 || throw(ArgumentError("pictures are of placements in the plane"))
+    ndims(placement) == 2 || throw(ArgumentError(
+        "placement has $(ndims(placement)) dimensions; one in the plane was expected"))
     points = nodes(placement).points
     ends = [points ghosts(placement).points]
     return points, broken_path(ends[:, pairs_in(lists_to_draw(placement, edges))])

@@ -215,7 +215,8 @@ function GeoGrid(path::AbstractString, low, high; variable = nothing, projection
 end
 
 function corner_of_part(corner)
-    length(corner) == 2 || throw(DimensionMismatch("a corner of the part has x and y"))
+    length(corner) == 2 || throw(DimensionMismatch(
+        "a corner of the part has $(length(corner)) coordinates; 2 were expected"))
     return collect(Float64, corner)
 end
 
@@ -248,7 +249,8 @@ where no cell around them has data.
 inside_grid(grid::GeoGrid, points::AbstractMatrix) = asked_grid(grid, points)[2] .!= 0
 
 function asked_grid(grid, points)
-    size(points, 1) == 2 || throw(DimensionMismatch("points have x and y: 2 rows"))
+    size(points, 1) == 2 || throw(DimensionMismatch(
+        "points has $(size(points, 1)) rows; 2 were expected"))
     x = Matrix{Float64}(points)
     values, inside = zeros(size(x, 2)), zeros(Int32, size(x, 2))
     check_geo(LibPNPBSGeo.pnpbs_geo_grid_values(live(grid), size(x, 2), x, values, inside))
@@ -263,7 +265,8 @@ the points are longitude and latitude in degrees, `radius` is that of the sphere
 are measured. With 0, lengths are those in the plane of the points.
 """
 function grid_slopes(grid::GeoGrid, points::AbstractMatrix; radius::Real = 0)
-    size(points, 1) == 2 || throw(DimensionMismatch("points have x and y: 2 rows"))
+    size(points, 1) == 2 || throw(DimensionMismatch(
+        "points has $(size(points, 1)) rows; 2 were expected"))
     x = Matrix{Float64}(points)
     slopes = zeros(size(x, 2))
     check_geo(LibPNPBSGeo.pnpbs_geo_grid_slopes(live(grid), radius, size(x, 2), x, slopes))
@@ -293,10 +296,12 @@ Throws `:error_spacing` for a depth or slope that is not a number.
 """
 function depth_spacing(depths::AbstractVector{<:Real}; slopes = nothing, wave::Real = 30,
                        period::Real = 44712, slope::Real = 0, least::Real = 10, metres::Real = 1)
-    slope > 0 && slopes === nothing && throw(ArgumentError("the slopes of the depths are missing"))
+    slope > 0 && slopes === nothing && throw(ArgumentError(
+        "slope is $slope, which requires the argument slopes"))
     h, n = Vector{Float64}(depths), length(depths)
     steep = slopes === nothing ? zeros(n) : Vector{Float64}(slopes)
-    length(steep) == n || throw(DimensionMismatch("as many slopes as depths are expected"))
+    length(steep) == n || throw(DimensionMismatch(
+        "slopes has length $(length(steep)); $n was expected, as of depths"))
     d = zeros(n)
     check_geo(LibPNPBSGeo.pnpbs_geo_depth_spacing(n, h, steep, wave, period, slope, least, metres, d))
     return d
