@@ -312,7 +312,7 @@ START_TEST(what_cannot_be_projected) {
   refuse(FEATURE("Polygon", "[[[20,95],[21,95],[21,96]]]"), NULL, NULL, PNPBS_ERROR_FILE,
          "none of the coordinates", "WGS 84");
   refuse(FEATURE("Polygon", "[[[20,50],[21,95],[21,50]]]"), NULL, NULL, PNPBS_ERROR_FILE,
-         "feature 0: (21, 95)", "no place");
+         "feature 0: (21, 95)", "cannot be projected");
   refuse(FEATURE("Polygon", "[[[19,50],[109,0.01],[21,51]]]"), "EPSG:2180", NULL, PNPBS_ERROR_FILE,
          "(109, 0.01)", "ETRF2000-PL / CS92");
   refuse(FEATURE("Polygon", "[[[-170,-50],[170,-50],[170,60],[10,60],[-60,10]]]"), NULL, NULL,

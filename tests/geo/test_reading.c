@@ -333,8 +333,8 @@ START_TEST(shapefile_without_its_companions) {
   ck_assert(has_note(it.shapes, "has no coordinate reference system"));
   GEO_MUST(pnpbs_geo_projection(it.shapes, &name, NULL, NULL, NULL, NULL));
   ck_assert_str_eq(name, "");
-  GEO_MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_geo_write_prj(it.shapes, path), "does not say",
-                "coordinates");
+  GEO_MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_geo_write_prj(it.shapes, path), "has no",
+                "coordinate reference system");
   geo_end(&it);
   GEO_MUST_FAIL(PNPBS_ERROR_FILE, pnpbs_geo_read(path, NULL, "EPSG:2180", NULL, NULL, &shapes),
                 "EPSG:2180", ".prj");
