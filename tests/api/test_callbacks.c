@@ -122,10 +122,11 @@ static const struct {
   double value;
   const char* words[2];
 } bad_values[] = {
-    {0, {"d = 0", "nodes"}},         {-0.0, {"d = -0", "nodes"}},   {-1, {"d = -1", "nodes"}},
-    {NAN, {"nan", "nodes"}},         {HUGE_VAL, {"inf", "nodes"}},  {-HUGE_VAL, {"inf", "nodes"}},
-    {1e-30, {"d = 1e-30", "nodes"}}, {1e-308, {"1e-308", "nodes"}}, {5e-324, {"5e-324", "nodes"}},
-    {1e-9, {"1e-09", "nodes"}},
+    {0, {"d = 0", "nodes"}},           {-0.0, {"d = -0", "nodes"}},
+    {-1, {"d = -1", "nodes"}},         {NAN, {"nan", "not finite"}},
+    {HUGE_VAL, {"inf", "not finite"}}, {-HUGE_VAL, {"inf", "not finite"}},
+    {1e-30, {"d = 1e-30", "nodes"}},   {1e-308, {"1e-308", "nodes"}},
+    {5e-324, {"5e-324", "nodes"}},     {1e-9, {"1e-09", "nodes"}},
 };
 
 /* Reads the point that the message names as "... at (x, y) ...". */

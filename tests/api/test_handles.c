@@ -114,6 +114,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_set_spacing_from_shape, (handle, 20, 3, 1, 0, 0, 0))                                \
   X(placement_set_spacing_at_nodes, (handle, 1, grid))                                            \
   X(placement_set_monitor, (handle, no_stop, NULL))                                               \
+  X(placement_add_spacing_hints, (handle, 1, grid))                                               \
   X(placement_set_nodes, (handle, 1, grid, NULL))                                                 \
   X(placement_estimate, (handle, out.integers + 1, out.integers + 2, out.reals + 3))              \
   X(placement_initialise, (handle))                                                               \
