@@ -382,7 +382,7 @@ class Replacing(CommandTest):
                 message = self.refuse("--domain", self.square, "--spacing", "0.1",
                                       "--output", output, "--format", "csv")
                 self.assertIn("would overwrite an input file", message)
-        self.assertIn("replace", self.refuse("--domain", self.square, "--spacing", "0.1",
+        self.assertIn("overwrite", self.refuse("--domain", self.square, "--spacing", "0.1",
                                              "--report", "square.poly"))
         self.assertEqual(self.square.read_text(), before)
 

@@ -188,7 +188,7 @@ class SpacingFiles(CommandTest):
         self.assertIn("missing.vtu", self.refuse_spacing("missing.vtu"))
         self.assertIn("expected a field", self.refuse("--domain", self.square, "--spacing", "bare.msh",
                                                       "--simplify", "0.1", "-o", "a.csv"))
-        self.assertIn("replace", self.refuse("--domain", self.square, "--spacing",
+        self.assertIn("overwrite", self.refuse("--domain", self.square, "--spacing",
                                              "packed.vtu:size", "-o", "packed.vtu"))
 
     def test_cut_anywhere(self):
