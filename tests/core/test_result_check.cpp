@@ -105,7 +105,7 @@ START_TEST(finds_nodes_that_are_not_inside) {
       const std::int64_t i = node_near(p, {0.2, 0.2});
       nodes_of(p).set_position(i, x);
       return {id_text(p, i) + " " + place_text(x),
-              std::isnan(x[0]) ? "has coordinates that are not usable" : " lies"};
+              std::isnan(x[0]) ? "has coordinates that are not usable" : " lie"};
     });
 }
 END_TEST
