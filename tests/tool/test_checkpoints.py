@@ -80,7 +80,7 @@ class Checkpoints(CommandTest):
                          ["options changed since the checkpoint: steps = 25 (20 before)"])
         fewer, warnings = self.restart("--set", "steps=10")
         self.assertEqual(fewer["hash"], first["hash"])
-        self.assertIn("change nothing", warnings[0])
+        self.assertIn("have no effect", warnings[0])
 
         settled, _ = self.restart("--set", "steps=500")
         self.assertEqual(settled["stop_reason"], "rest")
