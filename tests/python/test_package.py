@@ -3,6 +3,7 @@
 import contextlib
 import ctypes
 import gc
+import importlib
 import importlib.util
 import io
 import os
@@ -137,6 +138,26 @@ class Results(Case):
                                          pathlib.Path(folder, "none", "nodes.vtu"))
             self.assertIn("nodes.vtu", message)
 
+    def test_files_by_meshio(self):
+        meshio = importlib.import_module("meshio")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "a.inp", "a.mesh", "a.exo":
+                self.assertEqual(self.placement.write(pathlib.Path(folder) / name), Status.OK)
+                read = meshio.read(pathlib.Path(folder) / name)
+                np.testing.assert_allclose(read.points[:, :2], self.placement.mesh().coordinates)
+                self.assertEqual(len(read.cells_dict["triangle"]), len(self.placement.triangles()))
+            with self.assertRaisesRegex(ValueError, "would be a picture: draw it with `plot`"):
+                self.placement.write(pathlib.Path(folder) / "a.png")
+
+    def test_elements_in_the_formats_that_have_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = [pathlib.Path(folder) / name for name in ("a.vtu", "a.csv")]
+            self.placement.write(*files, elements=True)
+            self.placement.write(pathlib.Path(folder) / "b.vtu", elements=True)
+            self.placement.write(pathlib.Path(folder) / "b.csv")
+            for file in files:
+                self.assertEqual(file.read_bytes(), (pathlib.Path(folder) / f"b{file.suffix}").read_bytes())
+
     def test_output_fields(self):
         nodes = self.placement.nodes()
         with tempfile.TemporaryDirectory() as folder:
@@ -254,6 +275,22 @@ class Spacings(Case):
         self.assertTrue((inside > 60).all(), inside)  # 4/3 pi r^3 / (0.707 d^3) = 160
         placement.check()
 
+    def test_a_number_for_all_points(self):
+        placement = self.square().set_spacing(lambda x: 0.1)
+        self.assertEqual(placement.run(), Status.OK)
+        other = self.square().set_spacing(0.1)
+        other.run()
+        np.testing.assert_array_equal(placement.nodes().points, other.nodes().points)
+
+    def test_strict(self):
+        placement = self.square(steps=1, coarsest_steps=1).set_spacing(0.05)
+        with self.assertRaisesRegex(pnpbs.OutcomeError, "NOT_CONVERGED") as caught:
+            placement.run(strict=True)
+        self.assertEqual(caught.exception.status, Status.NOT_CONVERGED)
+        self.assertGreater(placement.node_count, 100)
+        placement.set(steps=1000)
+        self.assertEqual(placement.run(strict=True), Status.OK)
+
     def test_values_at_given_points(self):
         points = np.array([[-1, -1], [2, -1], [2, 2], [-1, 2.0]])
         d = 0.05 + 0.02 * (points[:, 0] + 1)
@@ -289,7 +326,7 @@ class Spacings(Case):
         self.assert_status(Status.ERROR_ARGUMENT, placement.set_spacing, [0.1, 0.1])
 
     def test_wrong_answers(self):
-        placement = self.square().set_spacing(lambda x: 0.1)
+        placement = self.square().set_spacing(lambda x: [0.1, 0.1])
         with self.assertRaisesRegex(ValueError, "spacing function"):
             placement.run()
         placement.set_spacing(lambda x: -graded(x))
@@ -361,6 +398,22 @@ class Domains(Case):
         self.assert_status(Status.ERROR_ARGUMENT, domain.set_corner_angle, 200)
         with self.assertRaises(ZeroDivisionError):
             domain.simplify(lambda x: 1 / 0)
+
+    def test_tag_and_tags(self):
+        for names in {"tag": 7}, {"tags": 7}:
+            domain = pnpbs.Domain(self.context).add_polyline(SQUARE, **names)
+            domain.add_fixed_nodes([(0.5, 0.5)], **names)
+            placement = pnpbs.Placement(domain).set_spacing(0.2)
+            placement.run()
+            self.assertEqual(set(placement.nodes().tags), {0, 7})
+        with self.assertRaisesRegex(TypeError, "tag and tags are both given"):
+            pnpbs.Domain(self.context).add_polyline(SQUARE, tag=1, tags=2)
+
+    def test_domains_show_what_they_hold(self):
+        domain = pnpbs.Domain(self.context)
+        self.assertEqual(repr(domain), "<pnpbs.Domain, 2D: empty>")
+        domain.add_polyline(SQUARE).add_arc((0.3, 0.3), 0.1).add_arc((0.7, 0.7), 0.1)
+        self.assertEqual(repr(domain), "<pnpbs.Domain, 2D: polyline, 2 arc>")
 
     def test_offsets(self):
         body = pnpbs.Domain(self.context).add_polyline(SQUARE)
@@ -964,7 +1017,7 @@ class Summaries(Case):
         self.assertEqual(repr(placement),
                          f"<pnpbs.Placement, 2D, {n // 1000} {n % 1000:03} nodes on this rank>")
         self.assertEqual(repr(self.context), "<pnpbs.Context, one process>")
-        self.assertEqual(repr(pnpbs.Domain(self.context, dim=3)), "<pnpbs.Domain, 3D>")
+        self.assertEqual(repr(pnpbs.Domain(self.context, dim=3)), "<pnpbs.Domain, 3D: empty>")
         self.assertEqual(repr(placement.nodes()), f"<pnpbs.Nodes, points ({n}, 2), ids ({n},), "
                                                   f"tags ({n},), spacing ({n},)>")
         self.assertEqual(repr(placement.numbering()),

@@ -30,7 +30,7 @@ from ._warnings import (DomainWarning, ElementsWarning, PNPBSWarning, SpacingWar
                         WarningData)
 from .context import Context
 from .domain import Domain, LeftOut, Outline, sphere_degrees, sphere_points
-from .errors import ErrorReason, PNPBSError, Status
+from .errors import ErrorReason, OutcomeError, PNPBSError, Status
 from .fields import Transfer
 from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays

@@ -41,9 +41,11 @@ def _copied(address: _Address, shape: Tuple[int, ...]) -> Doubles:
 
 
 def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: str) -> None:
-    """Writes the result of a function into the array of the library. Raises ValueError for another
-    shape."""
+    """Writes the result of a function into the array of the library. A single number stands for all
+    values of a function of points. Raises ValueError for another shape."""
     array = np.asarray(values, dtype=np.float64)
+    if array.ndim == 0 and len(shape) == 1:
+        array = np.full(shape, array)
     if array.shape != shape:
         raise ValueError(f"the {what} function returned an array of shape {array.shape}; {shape} "
                          "was expected")
@@ -52,7 +54,7 @@ def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: s
 
 def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
     """Makes a callback of f(points), which receives points of shape (n, dim) and returns n
-    values."""
+    values, or one number for all points."""
 
     def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
         def work() -> None:

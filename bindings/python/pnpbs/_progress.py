@@ -34,8 +34,8 @@ class ProgressBar:
 
     def __call__(self, fraction: float, step: int, nodes: int, max_speed: float) -> None:
         if self._bar is not None:
-            self._bar.n = 100 * fraction
-            self._bar.set_postfix_str(f"{nodes} nodes ")
+            self._bar.set_postfix_str(f"{nodes} nodes ", refresh=False)
+            self._bar.update(100 * fraction - self._bar.n)  # draws at most ten times a second
         else:
             bar = "#" * round(_WIDTH * fraction)
             print(f"\r{fraction:4.0%} [{bar:{_WIDTH}}] {nodes} nodes ", end="",

@@ -6,6 +6,7 @@ from __future__ import annotations
 import ctypes
 import math
 import os
+from collections import Counter
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -45,6 +46,13 @@ def _role_number(role: str) -> int:
     if role not in _ROLES:
         raise ValueError(f"role is {role!r}; 'boundary' or 'inner' was expected")
     return _ROLES[role]
+
+
+def _tags_or_tag(tags: Optional[ArrayLike], tag: Optional[int]) -> Optional[ArrayLike]:
+    """Returns the one that is given. Raises TypeError if both are."""
+    if tags is not None and tag is not None:
+        raise TypeError("tag and tags are both given; one of them was expected")
+    return tag if tags is None else tags
 
 
 def _as_function(d: Union[float, ArrayFunction]) -> ArrayFunction:
@@ -119,6 +127,7 @@ class Domain(Handle):
         """Takes over a new handle and registers the domain at its context."""
         self._handle = handle.value
         self._callbacks: List[Any] = []
+        self._added: Counter[str] = Counter()  # of calls that add to the domain, in their order
         self.context._children.append(self)
 
     def close(self) -> None:
@@ -129,11 +138,17 @@ class Domain(Handle):
             self.context._children.remove(self)
 
     def __repr__(self) -> str:
-        return f"<pnpbs.Domain, {f'{self.dim}D' if self.is_open else 'closed'}>"
+        if not self.is_open:
+            return "<pnpbs.Domain, closed>"
+        parts = [name if count == 1 else f"{count} {name}" for name, count in self._added.items()]
+        return f"<pnpbs.Domain, {self.dim}D: {', '.join(parts) or 'empty'}>"
 
     def _call(self, name: str, *arguments: Any) -> Domain:
         """Calls the function pnpbs_domain_<name> and returns the domain."""
         self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))
+        verb, _, what = name.partition("_")
+        if verb in ("add", "read", "parse"):
+            self._added[what] += 1
         return self
 
     @property
@@ -146,14 +161,15 @@ class Domain(Handle):
     # ------------------------------------------------------------ curves -----------------------
 
     def add_polyline(self, coordinates: ArrayLike, closed: bool = True, role: Role = "boundary",
-                     tags: Optional[ArrayLike] = None, corner_angle: float = 0.0) -> Domain:
+                     tags: Optional[ArrayLike] = None, corner_angle: float = 0.0, *,
+                     tag: Optional[int] = None) -> Domain:
         """Adds straight segments through vertices. On a sphere the segments are parts of great
         circles.
 
         - `coordinates`: the vertices, of shape (n, dim).
         - `closed`: whether a segment joins the last vertex to the first one.
         - `role`: "boundary" or "inner"; in space "inner".
-        - `tags`: one for all segments or one for each.
+        - `tags`: one for all segments or one for each; `tag` is another name for one.
         - `corner_angle`: in degrees. With 0 every vertex becomes a node. Otherwise only vertices
           where the direction turns by more than this angle become nodes, and ends of open polylines
           and vertices where curves meet. Between them the polyline represents a smooth curve. In
@@ -162,7 +178,7 @@ class Domain(Handle):
         n = len(points)
         segments = n if closed else max(n - 1, 0)
         return self._call("add_polyline", _role_number(role), closed, n, points,
-                          as_tags(tags, segments, "tags"), corner_angle)
+                          as_tags(_tags_or_tag(tags, tag), segments, "tags"), corner_angle)
 
     def add_arc(self, centre: ArrayLike, radius: float, begin: float = 0.0, end: float = 2 * math.pi,
                 role: Role = "boundary", tag: int = 1) -> Domain:
@@ -225,7 +241,8 @@ class Domain(Handle):
     # ------------------------------------------------------------ surfaces ---------------------
 
     def add_surface(self, coordinates: ArrayLike, corners: ArrayLike, role: Role = "boundary",
-                    tags: Optional[ArrayLike] = None, feature_angle: float = 40.0) -> Domain:
+                    tags: Optional[ArrayLike] = None, feature_angle: float = 40.0, *,
+                    tag: Optional[int] = None) -> Domain:
         """Adds a triangulated surface to a domain in space. Closed surfaces with the role
         "boundary" bound the domain. Nodes follow "inner" surfaces, which may be open. Coincident
         vertices are merged. The triangles may have any orientation, because the enclosed volume
@@ -233,14 +250,15 @@ class Domain(Handle):
 
         - `coordinates`: the vertices, of shape (n, 3).
         - `corners`: indices of vertices, of shape (m, 3).
-        - `tags`: one for all triangles or one for each.
+        - `tags`: one for all triangles or one for each; `tag` is another name for one.
         - `feature_angle`: in degrees. Nodes lie on an edge between two triangles if their normals
           differ by more than this angle, or if their tags differ. Between such edges the triangles
           only define the shape, whatever their size is."""
         points = as_points(coordinates, 3, "coordinates")
         triangles = as_indices(corners, 3, "corners")
         return self._call("add_surface", _role_number(role), len(points), points, len(triangles),
-                          triangles, as_tags(tags, len(triangles), "tags"), feature_angle)
+                          triangles, as_tags(_tags_or_tag(tags, tag), len(triangles), "tags"),
+                          feature_angle)
 
     def read_surface(self, path: Path, role: Role = "boundary",
                      feature_angle: float = 40.0) -> Domain:
@@ -438,13 +456,14 @@ class Domain(Handle):
         surface, or in a region with another tag."""
         return self._call("add_region", as_point(point, self.dim, "point"), tag)
 
-    def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None) -> Domain:
+    def add_fixed_nodes(self, coordinates: ArrayLike, tags: Optional[ArrayLike] = None, *,
+                        tag: Optional[int] = None) -> Domain:
         """Adds fixed nodes, which keep their exact coordinates. They must lie inside the domain or
         on a vertex of its curves or surfaces. `coordinates` has the shape (n, dim), and `tags` is
-        one for all nodes or one for each."""
+        one for all nodes or one for each; `tag` is another name for one."""
         points = as_points(coordinates, self.dim, "coordinates")
         return self._call("add_fixed_nodes", len(points), points,
-                          as_tags(tags, len(points), "tags"))
+                          as_tags(_tags_or_tag(tags, tag), len(points), "tags"))
 
     # ------------------------------------------------------------ queries ----------------------
 

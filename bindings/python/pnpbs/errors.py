@@ -81,6 +81,19 @@ class PNPBSError(Exception):
         self.points = tuple(points)
 
 
+class OutcomeError(Exception):
+    """The outcome of a run with `strict=True` that is not `Status.OK`. The nodes are valid and are
+    kept.
+
+    - `status`: the outcome, such as `Status.SPACING_MISSED`.
+    - `warnings`: the messages of the run's warnings."""
+
+    def __init__(self, status: Status, warnings: Sequence[str]) -> None:
+        super().__init__("; ".join([f"the outcome of the run is {status}", *warnings]))
+        self.status = status
+        self.warnings = tuple(warnings)
+
+
 def last_error(context: Any) -> str:
     """Returns the message of the last error on a context, or of this thread if it is None."""
     return str(library().pnpbs_last_error(context).decode())

@@ -21,7 +21,7 @@ from ._types import ArrayFunction, Doubles, Monitor, OptionValue, Path
 from ._warnings import warning_class
 from .context import _set_option
 from .domain import Domain
-from .errors import Status
+from .errors import OutcomeError, Status
 from .fields import Fields
 from .mesh import Meshes
 from .results import Results
@@ -340,7 +340,15 @@ class Placement(Results, Fields, Meshes, Tessellation):
         self._warn()
         return self
 
-    def run(self, progress: bool = False) -> Status:
+    def _write_by_meshio(self, path: Path) -> Status:
+        mesh = self.mesh()
+        if mesh.owned_nodes != mesh.all_nodes:
+            raise ValueError(f"{os.fsdecode(path)!r} would be written by meshio, on one rank: write "
+                             "a .vtu or .msh file and convert it")
+        mesh.to_meshio().write(path)
+        return Status.OK
+
+    def run(self, progress: bool = False, strict: bool = False) -> Status:
         """Runs the whole placement and returns its outcome (see `Status`). It initialises if
         necessary, simulates until the bubbles are at rest or the option `steps` is reached, and
         finishes. A later run, for example with another spacing, starts from the current nodes.
@@ -349,12 +357,16 @@ class Placement(Results, Fields, Meshes, Tessellation):
         - `progress`: whether to show a progress bar on standard error: that of tqdm, or one of text
           if tqdm is not installed. On several ranks, set it on one of them: `progress=comm.rank ==
           0`.
+        - `strict`: whether to raise `OutcomeError`, on all ranks, unless the outcome is
+          `Status.OK`. The nodes are kept.
 
         Raises the errors of `initialise`."""
         with self._progress_shown() if progress else contextlib.nullcontext():
             outcome = self._call("run")
         self._spacings_before.clear()
         self._warn()
+        if strict and outcome != Status.OK:
+            raise OutcomeError(outcome, [data.text for data in self.warning_data()])
         return outcome
 
     def step(self, n: int = 1) -> Status:

@@ -5,6 +5,7 @@ rank from 0, followed by its ghosts. Global ids do not depend on the number of r
 from __future__ import annotations
 
 import ctypes
+import importlib
 import os
 from typing import Any, Dict, List, NamedTuple, Sequence, TypeVar, Union
 
@@ -18,7 +19,7 @@ from ._warnings import WarningCode, WarningData
 from .errors import Status
 from .placement_handle import PlacementHandle
 from .rows import CompressedRows
-from .tables import statistic_table
+from .tables import format_table, statistic_table
 
 
 class Nodes(NamedTuple):
@@ -120,6 +121,26 @@ class CellBands(NamedTuple):
 
 
 _Self = TypeVar("_Self", bound="Results")
+
+
+def _extension(path: Path) -> str:
+    return os.path.splitext(os.fsdecode(path))[1][1:].lower()
+
+
+def _meshio_writes(path: Path) -> bool:
+    """Returns whether meshio is installed and knows files with this extension."""
+    try:
+        known = importlib.import_module("meshio").extension_to_filetypes
+    except ImportError:
+        return False
+    return "." + _extension(path) in known
+
+
+def _refuse_pictures(paths: Sequence[Path]) -> None:
+    for path in paths:
+        if _extension(path) in ("png", "svg", "pdf"):
+            raise ValueError(f"{os.fsdecode(path)!r} would be a picture: draw it with `plot`, and "
+                             "save that, or write it by the command, pnpbs --output")
 
 
 class Results(PlacementHandle):
@@ -399,15 +420,30 @@ class Results(PlacementHandle):
         - `*paths`: the files; their extensions select the formats (`pnpbs.format_table()`). All
           ranks pass the same.
         - `elements`: whether to write triangles or tetrahedra as well, one for all files or one for
-          each.
+          each. One True for all applies to the formats that can hold elements.
+
+        A file with an extension that only meshio knows, such as .inp, .mesh or .exo, is
+        written by meshio from `Placement.mesh` with elements, and as the only file of a call on one
+        rank.
 
         Returns `Status.OK`, or `Status.STOPPED` if the monitor has stopped the call, which keeps
         existing files. Raises `Status.ERROR_FILE` with the name of the file, and
         `Status.ERROR_UNSUPPORTED` if a format requires HDF5 and the library has none."""
         encoded = [os.fsencode(path) for path in paths]
+        formats = {row.name: row for row in format_table()}
+        of_paths = [formats.get(_extension(path)) for path in paths]
+        _refuse_pictures(paths)
+        if len(paths) == 1 and of_paths[0] is None and _meshio_writes(paths[0]):
+            return self._write_by_meshio(paths[0])
         wanted = np.full(len(paths), elements, np.int32)
+        if elements is True and len(paths) > 1:
+            wanted[:] = [row is None or row.elements for row in of_paths]
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
+
+    def _write_by_meshio(self, path: Path) -> Status:
+        """Writes the mesh of the placement by meshio."""
+        raise NotImplementedError  # Placement has meshes
 
     def add_output_field(self: _Self, name: str, values: ArrayLike) -> _Self:
         """Adds a field of the caller to files that are written afterwards, and returns the
