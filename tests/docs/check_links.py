@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every relative link of every page leads to a file that is there, and to a heading of it.
+"""Checks that every relative link of every page leads to a file that exists and to a heading of it, and that the C++
+files that pages name, as `level/level.hpp`, exist in src or from the root.
 usage: check_links.py <folder> [--self-test]"""
 
 import contextlib
@@ -14,6 +15,7 @@ import tempfile
 from pages import prose
 
 LINK = re.compile(r"\]\(([^()\s]+)\)")
+NAMED_FILE = re.compile(r"`([\w-]+(?:/[\w.-]+)+\.[ch]pp)`")
 ANY_LINK = re.compile(r"\]\([^)]*\)")
 
 
@@ -38,9 +40,13 @@ def pages_below(root):
         yield from (pathlib.Path(folder) / one for one in sorted(files) if one.endswith(".md"))
 
 
-def broken(page):
+def broken(page, root):
     """(link, what is wrong) of a page."""
-    text = prose(page.read_text())
+    text = page.read_text()
+    for file in NAMED_FILE.findall(text):
+        if not (root / "src" / file).exists() and not (root / file).exists():
+            yield file, "no such file in src"
+    text = prose(text)
     for link in ANY_LINK.findall(text):
         if not LINK.fullmatch(link):
             yield link[2:-1], "not understood"
@@ -60,7 +66,7 @@ def all_broken(root):
     if not pages:
         return [f"{root}: no pages"]
     return [f"{page.relative_to(root)}: {link}: {what}"
-            for page in pages for link, what in broken(page)]
+            for page in pages for link, what in broken(page, root)]
 
 
 def self_test():
@@ -74,7 +80,13 @@ def self_test():
                                    "[e](https://example.org/x#y) `[f](none.md)`\n"
                                    "```c\n[g](none.md)\n# Four\n```\n")
         (root / "b.md").write_text('<a id="here"></a>\n')
+        (root / "src" / "x").mkdir(parents=True)
+        (root / "src" / "x" / "y.hpp").write_text("")
+        (root / "c.md").write_text("`x/y.hpp` and `src/x/y.hpp`\n")
         assert all_broken(root) == [], all_broken(root)
+        (root / "c.md").write_text("`x/z.hpp`\n")
+        assert all_broken(root) == ["c.md: x/z.hpp: no such file in src"], all_broken(root)
+        (root / "c.md").unlink()
         assert main([name]) == 0 and main([f"{name}/build/none"]) == 1
         bad = ["b.md 'title'", "c.md", "#three", "b.md#there", "#two-2", "build#x", "#four"]
         (root / "bad.md").write_text("# Two\n" + "\n".join(f"[x]({link})" for link in bad))
