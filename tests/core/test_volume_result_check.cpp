@@ -103,7 +103,8 @@ START_TEST(finds_nodes_that_are_not_inside) {
     expect_complaint([&](Placement3& p) -> std::vector<std::string> {
       const std::int64_t i = inner_node(p);
       nodes_of(p).set_position(i, x);
-      return {id_text(p, i) + " " + place_text(x), " lie"};
+      return {id_text(p, i) + " " + place_text(x),
+              std::isnan(x[0]) ? "has coordinates that are not usable" : " lie"};
     });
 }
 END_TEST
