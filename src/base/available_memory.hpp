@@ -12,7 +12,7 @@ namespace pnpbs {
 // prefix of the paths that are read; tests pass a folder with files of their own.
 double available_memory(const std::string& root = "");
 
-// Returns the largest memory in bytes that this process has used so far.
+// Returns the largest memory in bytes that this process has used up to now.
 std::int64_t peak_memory();
 
 }  // namespace pnpbs

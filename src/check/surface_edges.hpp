@@ -18,7 +18,7 @@ struct SurfaceEdge {
 };
 
 // Returns the number of sheets that meet at the feature curve on which nodes i and j are adjacent,
-// or 0 if there is none.
+// or 0 if none exists.
 std::int64_t sheets_at(const Results<3>& results, std::int64_t i, std::int64_t j);
 
 // Calls visit(edge) for the edges whose number of triangles is wrong, on one rank each. An edge of

@@ -140,7 +140,7 @@ class Profiles {
     return max > kMaxRatio * min && h > kSmallestStep * min ? 2 : 1;
   }
 
-  // Divides the open intervals that are too long. Returns false if there are none.
+  // Divides the open intervals that are too long. Returns false if none exist.
   static bool divide(Profile& profile) {
     if (std::find(profile.open.begin(), profile.open.end(), 1) == profile.open.end()) return false;
     Profile finer;

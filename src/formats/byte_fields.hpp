@@ -25,7 +25,7 @@ class ByteFields {
   std::size_t remaining() const { return bytes_.size() - at_; }
 
   // Returns the next number. `what` describes the expected number in messages. Throws Error "name:
-  // at byte 84: found ..., expected what" if there is none.
+  // at byte 84: found ..., expected what" if none exists.
   template <class Number>
   Number next(std::string_view what) {
     if (remaining() < sizeof(Number)) fail("the file ends, expected " + std::string(what));

@@ -30,7 +30,7 @@ class MshFields {
   // Returns the next line that is not blank, without surrounding blanks, in text and binary files.
   // Returns nothing at the end of the file.
   std::optional<std::string_view> line();
-  // Returns the next line. `what` describes the expected line in the error if there is none.
+  // Returns the next line. `what` describes the expected line in the error if none exists.
   std::string_view required_line(std::string_view what);
   // Skips everything up to and including the line "$End<section>".
   void skip_section(std::string_view section);

@@ -24,7 +24,7 @@ class MshNodeTable {
   }
   std::optional<std::int64_t> repeated() const { return repeated_; }
 
-  // Returns the index of the node, or -1 if there is none.
+  // Returns the index of the node, or -1 if none exists.
   std::int32_t at(std::int64_t tag) const {
     if (consecutive_)
       return tag >= first_ && tag - first_ < count_ ? static_cast<std::int32_t>(tag - first_) : -1;

@@ -37,7 +37,7 @@ struct PlyElement {
   std::int64_t count;
   std::vector<PlyProperty> properties;
 
-  // Returns the index of the property, or the number of properties if there is none of this name.
+  // Returns the index of the property, or the number of properties if none exists of this name.
   std::size_t place_of(std::string_view property) const;
 };
 

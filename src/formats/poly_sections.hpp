@@ -70,7 +70,7 @@ struct RegionSection {
 template <int Dim>
 RegionSection<Dim> read_regions(TextFields& fields);
 
-// Returns a warning about skipped regions, or nothing if there are none.
+// Returns a warning about skipped regions, or nothing if none exist.
 std::optional<Warning> warning_of_skipped(const std::vector<std::string>& skipped,
                                           const std::string& file);
 

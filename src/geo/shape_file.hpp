@@ -42,7 +42,7 @@ struct Note {
   std::int64_t count;  // number of the features, segments or lines concerned; 0: not a count
 };
 
-// Returns a note. Throws Error if there is none of this index.
+// Returns a note. Throws Error if none exists of this index.
 inline const Note& note_at(const std::vector<Note>& notes, std::int32_t index) {
   if (index < 0 || index >= std::ssize(notes))
     throw Error(ErrorKind::argument, "argument index = " + std::to_string(index) + ": there are " +

@@ -46,7 +46,7 @@ const Format& heavy_data_format();
 std::string heavy_data_path(const std::string& path);  // path: of the .xdmf file
 std::string facets_path(const std::string& path);      // file of the facets that belongs to a grid
 
-// Return nullptr if there is none.
+// Return nullptr if none exists.
 const Format* format_by_name(std::string_view name);
 const Format* format_by_extension(std::string_view path);
 

@@ -54,7 +54,7 @@ class OutputFile {
   std::string path_;    // as given by the user
   std::string target_;  // after following symbolic links
   std::unique_ptr<Temporary> temporary_;
-  // Temporary name of the old file, while it can be restored; empty if there is none.
+  // Temporary name of the old file, while it can be restored; empty if none exists.
   std::string old_;
   bool old_is_linked_ = false;  // the old file also keeps its name until it is replaced
   bool published_ = false;

@@ -122,7 +122,7 @@ class NearEdges::Finder {
   }
 
   // Appends the edges within reach of node i. Returns the distance to the nearest one, or the reach
-  // if there is none.
+  // if none exists.
   double find(std::int64_t i, std::vector<std::int32_t>& out) {
     const double reach = of_.radius_ * nodes_.d(i);
     const Point<2> x = of_.place_of(i);

@@ -35,13 +35,14 @@ inline Colour mixed(std::span<const Colour> stops, double fraction) {
           mix(stops[below].blue, stops[below + 1].blue)};
 }
 
-// From small to large spacing: dark to light, also readable in grey and with colour blindness.
+// Colours from small to large spacing: dark to light, also readable in grey and with colour
+// blindness.
 inline constexpr std::array spacing_palette{colour(0x1b2f5b), colour(0x245f8f), colour(0x2f8f9d),
                                             colour(0x77b38a), colour(0xd9b95b)};
-// From bad to good triangles: dark to light, so that bad ones stand out.
+// Colours from bad to good triangles: dark to light, so that bad ones stand out.
 inline constexpr std::array quality_palette{colour(0x3b0f70), colour(0x8c2981), colour(0xde4968),
                                             colour(0xfe9f6d), colour(0xfcfdbf)};
-// From short to long edges: pale where the length is d.
+// Colours from short to long edges: pale where the length is d.
 inline constexpr std::array edge_palette{colour(0x2166ac), colour(0x67a9cf), colour(0xf4f2ee),
                                          colour(0xef8a62), colour(0xb2182b)};
 

@@ -39,7 +39,7 @@ struct PictureSize {
   double max_side;
 };
 
-// Returns the bounding box of points [n][2], or the origin if there are none.
+// Returns the bounding box of points [n][2], or the origin if none exist.
 Box<2> bounds_of(std::initializer_list<std::span<const double>> points);
 
 // Returns a frame around `bounds`, scaled so that the median of `spacing` has the requested size.

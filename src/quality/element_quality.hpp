@@ -70,7 +70,7 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
                                           const Stars<Dim>& stars, const View<char>& left_out = {});
 
 // Returns the band whose mean edge ratio deviates most from 1, among bands with at least 50 edges
-// and a deviation of more than 10 %. Returns nullptr if there is none.
+// and a deviation of more than 10 %. Returns nullptr if none exists.
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands);
 
 }  // namespace pnpbs

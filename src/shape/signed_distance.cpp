@@ -18,7 +18,7 @@ BoundaryTriangle facet_of(const ShapePiece<3>& piece) {
   return {piece.ends, piece.tag, piece.front_inside, piece.back_inside};
 }
 
-// Returns the boundary pieces as a mesh. Throws Error(ErrorKind::argument) if there are none.
+// Returns the boundary pieces as a mesh. Throws Error(ErrorKind::argument) if none exist.
 template <int Dim>
 BoundaryMesh<Dim> mesh_of(const Shape<Dim>& shape) {
   BoundaryMesh<Dim> mesh;

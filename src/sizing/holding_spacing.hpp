@@ -34,7 +34,7 @@ struct Unresolved {
   ElementFaults faults;  // faults of the elements of all ranks
 };
 
-// Adds the points where d must be smaller because of this round. Returns false if there are none,
+// Adds the points where d must be smaller because of this round. Returns false if none exist,
 // or if the number of rounds is used up.
 // Collective.
 template <int Dim>

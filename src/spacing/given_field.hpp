@@ -25,7 +25,7 @@ struct GivenField {
               elements_name = "argument corners";
   std::vector<Point<Dim>> points;
   std::vector<double> values;
-  // Triangles or tetrahedra with corners in any order. The points are scattered if there are none.
+  // Triangles or tetrahedra with corners in any order. The points are scattered if none exist.
   std::vector<std::array<std::int32_t, Corners>> elements;
   ErrorKind fault = ErrorKind::argument;  // the kind of errors in this field
   // true: points that no element uses are not checked, because files of meshes may contain such

@@ -95,7 +95,7 @@ class ConvexPiece {
     return 0.5 * length(sum);
   }
 
-  // All have the size of the largest piece so far.
+  // All have the size of the largest piece until now.
   std::vector<Point<Dim>> points_, kept_;
   std::vector<double> values_;
   std::size_t size_ = 0;

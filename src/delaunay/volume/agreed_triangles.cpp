@@ -37,7 +37,7 @@ void AgreedTriangles::find_gaps(std::int64_t i, std::vector<Gap>& gaps) const {
   }
 }
 
-// Returns the corner of the hole that follows `node` if `from` precedes it, or -1 if there is none.
+// Returns the corner of the hole that follows `node` if `from` precedes it, or -1 if none exists.
 std::int32_t AgreedTriangles::next_around_hole(std::int32_t node, std::int64_t from) {
   find_gaps(node, gaps_there_);
   for (const Gap& gap : gaps_there_)

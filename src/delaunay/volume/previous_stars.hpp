@@ -41,7 +41,7 @@ class PreviousStars {
 
  private:
   // The relation of nodes before and now. now[k] is the present index of previous node k, or -1 if
-  // it is gone. before[i] is the previous node whose star node i has, or -1 if there is none.
+  // it is gone. before[i] is the previous node whose star node i has, or -1 if none exists.
   struct Places {
     std::vector<std::int32_t> now, before;
   };

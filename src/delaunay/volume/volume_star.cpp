@@ -258,7 +258,7 @@ bool VolumeStar::all_surely_below(const Plane& plane, const Corners& facet) cons
   return true;
 }
 
-// Finds the facet with this edge. Returns false if there is none, so that face (centre, from, to)
+// Finds the facet with this edge. Returns false if none exists, so that face (centre, from, to)
 // is open. Seen along the edge, the third corner is the steepest candidate on the right side of the
 // face. If all others are certainly below the facet, exact arithmetic is not necessary.
 bool VolumeStar::find_facet(const Edge& edge, Facet& facet) {

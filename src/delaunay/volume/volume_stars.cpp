@@ -14,7 +14,7 @@
 namespace pnpbs {
 namespace {
 
-// The elements in the stars found so far of a chunk, for later nodes of the chunk: an element of
+// The elements in the stars of a chunk found until now, for later nodes of the chunk: an element of
 // one star belongs to the stars of all its corners.
 class FoundElements {
  public:

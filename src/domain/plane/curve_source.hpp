@@ -37,7 +37,7 @@ struct CurveSource {
   std::vector<std::int32_t> tags;  // one per segment
   double corner_angle = 0;         // polylines [degrees]
   // Polylines on a sphere: nonzero for points that were inserted on a great circle between two
-  // given points. Empty if there are none.
+  // given points. Empty if none exist.
   std::vector<char> on_the_way;
 
   std::vector<double> parameters;  // smooth curves: parameters of the samples

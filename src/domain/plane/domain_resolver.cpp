@@ -116,7 +116,7 @@ void attach_to_smooth_curves(std::vector<CurveSource>& sources,
 }
 
 // Halves the chords of smooth curves that are in conflict, because the curves themselves may not
-// be. Returns false if there are none.
+// be. Returns false if none exist.
 bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGraph& graph,
                                const std::vector<SweepConflict>& conflicts) {
   std::vector<NewSamples> added(sources.size());
@@ -480,7 +480,7 @@ class Resolver {
   Faces faces_;
   std::vector<char> inside_;               // per face
   std::vector<std::int32_t> inner_face_;   // per face: its number among the inner ones, or 0
-  std::vector<std::int32_t> region_tags_;  // per face; empty if there are none
+  std::vector<std::int32_t> region_tags_;  // per face; empty if none exist
   std::vector<char> kept_;                 // per edge: is it part of the domain?
   std::vector<std::int32_t> kept_degree_;
   ResolvedDomain result_;

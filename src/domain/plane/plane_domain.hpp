@@ -36,7 +36,7 @@ struct BoundaryCurve {
   // Faces on both sides, into which curves divide the inside: 1, 2, ... inside, 0 outside.
   std::int32_t left_face = 0;
   std::int32_t right_face = 0;
-  std::int32_t left_region = 0;  // tags, 0 if there is none
+  std::int32_t left_region = 0;  // tags, 0 if none exists
   std::int32_t right_region = 0;
 
   // Returns true if the domain lies on exactly one side.
@@ -141,8 +141,8 @@ class PlaneDomain : public DomainBase<2> {
                 std::int64_t first_number = 0);
   // Sets the angle at which vertices of graphs are corners. [degrees]
   void set_corner_angle(double corner_angle);
-  // Removes details finer than d from what was given so far (plane/simplify.hpp). Leaves the domain
-  // unchanged if it throws.
+  // Removes details finer than d from what was given until now (plane/simplify.hpp). Leaves the
+  // domain unchanged if it throws.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
 
   // Checks the domain and resolves corners, curves and sides. Does nothing if nothing changed since

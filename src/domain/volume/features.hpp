@@ -53,7 +53,7 @@ struct Features {
 
 // Surfaces within which edges are features only where listed, not by the angle of normals.
 struct SmoothSurfaces {
-  std::vector<std::int32_t> of;  // surface of each facet, or -1; empty if there are none
+  std::vector<std::int32_t> of;  // surface of each facet, or -1; empty if none exist
   // Nodes of their feature edges; ascending within a pair, and pairs sorted.
   std::vector<std::array<std::int32_t, 2>> creases;
 };

@@ -140,7 +140,7 @@ double distance_to_creases(const ResolvedVolume& volume) {
 
 // Returns a value for BoundaryMesh::node_distance: twice the largest distance found at sample
 // points of the triangles and feature edges. It is at least the effect of rounding and at most the
-// resolution of the sets; 0 if there are none.
+// resolution of the sets; 0 if none exist.
 double largest_node_distance(const ResolvedVolume& volume) {
   constexpr double kSpare = 2, kLeast = 1e-6;  // kLeast in units of the resolution
   double resolution = 0, largest = 0;

@@ -47,7 +47,7 @@ struct LevelSetCrease {
 // The level sets of the domain, and which triangles belong to them.
 struct LevelSetTriangles {
   std::vector<std::shared_ptr<const LevelSet>> sets;
-  std::vector<std::int32_t> of;         // level set of each facet, or -1; empty if there are none
+  std::vector<std::int32_t> of;         // level set of each facet, or -1; empty if none exist
   std::vector<LevelSetCrease> creases;  // ordered by their nodes
 
   const LevelSetCrease* crease(std::int32_t node, std::int32_t other) const;

@@ -22,7 +22,7 @@ bool has_side(const FaceFan& fan, std::int32_t from, std::int32_t to);
 FaceFan open_faces(const Level<3>& level, std::int64_t i);
 
 // Returns the number of disks that these faces form around their node. It is 0 if they do not form
-// disks, or if there are none.
+// disks, or if none exist.
 std::int64_t disks_of(const FaceFan& fan);
 
 }  // namespace pnpbs

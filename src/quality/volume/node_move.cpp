@@ -61,7 +61,7 @@ bool NodeMove::go_to(const Point<3>& x) {
   return wrap_star(star, change_.node, near_, change_.made);
 }
 
-// Returns the apex of the tetrahedron on the other side of a face, or -1 if there is none.
+// Returns the apex of the tetrahedron on the other side of a face, or -1 if none exists.
 std::int32_t NodeMove::beyond(const TetrahedronNodes& t, std::size_t corner) const {
   const Corners face = face_of(t, corner);
   std::int32_t apex = -1;
@@ -142,7 +142,7 @@ bool NodeMove::complete() {
 }
 
 // Adds the missing tetrahedron at a face. All its corners are old neighbours of the node. Returns
-// false if there is none.
+// false if none exists.
 bool NodeMove::fill(const Corners& corners) {
   static thread_local VolumeStar star;
   std::vector<std::int32_t> candidates = ring_;
