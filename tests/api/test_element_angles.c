@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * Tests small dihedral angles. Angles at sharp edges of the body are counted separately. The
- * others are reported to the user and, with the option min_angle, enlarged by a smaller d. If nodes are
- * too close to each other, or lie in a plane across a bar, one is removed or inserted.
+ * others are reported to the user and, with the option min_angle, enlarged by a smaller d. If nodes
+ * are too close to each other, or lie in a plane across a bar, one is removed or inserted.
  */
 #include "volume_support.h"
 

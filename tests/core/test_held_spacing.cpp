@@ -42,8 +42,8 @@ START_TEST(a_place_is_known_between_samples) {
   Random random(27);
   for (int k = 0; k < 40; ++k) {
     const Point3 place = random.point(kPlate);
-    // d is at most 1.4 times kHeld here. Nodes that meet a d below kFarFiner times the tree's value would
-    // restart the run.
+    // d is at most 1.4 times kHeld here. Nodes that meet a d below kFarFiner times the tree's value
+    // would restart the run.
     ck_assert_double_le(expected_at(place), 2 * kHeld);
   }
 }
