@@ -18,8 +18,9 @@ namespace {
 // A boundary face of the tetrahedra.
 struct Face {
   FacetCorners<3> corners;
-  double d;  // the least at its corners
-  // Bit k: the side from corner k to the next is sampled here rather than at the face beyond it.
+  double d;  // smallest spacing at its corners
+  // Bit k is set if this face samples the side from corner k to the next one. Each side has two
+  // faces, and one of them samples it.
   std::int32_t sides;
 };
 
@@ -55,7 +56,7 @@ double farthest_face(const std::vector<Face>& faces, const SurfaceIndex& surface
 }
 
 // Distances of surface triangles from the faces. A triangle is bisected until its edges are at most
-// d/2.
+// d long.
 class SurfacePieces {
  public:
   explicit SurfacePieces(const std::vector<Face>& faces) : faces_(faces), tree_(corners(faces)) {}

@@ -140,6 +140,7 @@ template <int Dim>
 void add_spacing_hints(const std::vector<Point<Dim>>& own, const Communicator& comm,
                        const Domain<Dim>& domain, SizingField<Dim>& spacing) {
   std::vector<Point<Dim>> points = of_all_ranks(comm, own);
+  SizingField<Dim> with_hints;
   collective_try(comm, [&] {
     if constexpr (Dim == 3)
       if (domain.filled())
@@ -150,10 +151,10 @@ void add_spacing_hints(const std::vector<Point<Dim>>& own, const Communicator& c
     evaluate_spacing<Dim>(spacing, measure_of(domain), std::ssize(points), points.data(), d.data());
     SpacingHints<Dim> hints;
     for (std::size_t i = 0; i < points.size(); ++i) hints.in_domain.push_back({points[i], d[i]});
-    SizingField<Dim> with_hints = spacing;
+    with_hints = spacing;
     with_hints.add_undersampled_points(hints);
-    spacing = std::move(with_hints);
   });
+  spacing = std::move(with_hints);  // not before all ranks have succeeded
 }
 
 template <int Dim>

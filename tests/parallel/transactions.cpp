@@ -197,7 +197,39 @@ void check_reading() {
   if (rank == 0) std::remove(path);
 }
 
+// A spacing with a spot that is narrower than the distance of the samples.
+std::int32_t spot_at(std::int64_t n, std::int32_t dim, const double* x, double* d, void* user) {
+  auto* const s = static_cast<Spacing*>(user);
+  ++s->calls;
+  if (s->fails_at >= 0 && s->calls >= s->fails_at && rank == size - 1) return 1;
+  for (std::int64_t i = 0; i < n; ++i)
+    d[i] = std::hypot(x[dim * i] - 0.4137, x[dim * i + 1] - 0.5519) < 0.002 ? 0.0005 : 0.1;
+  return 0;
+}
+
+// Checks that no rank keeps a hint if the callback of the last rank fails at the point.
+void check_hints() {
+  std::string hashes[2];
+  for (const bool fails : {false, true}) {
+    Spacing spacing;
+    pnpbs_placement placement = placement_of(shapes()[0], spacing);
+    pnpbs_placement_set_spacing_callback(placement, spot_at, &spacing);
+    const double hint[] = {0.4137, 0.5519};
+    spacing.fails_at = fails ? 1 : -1;
+    if (fails)
+      expect(pnpbs_placement_add_spacing_hints(placement, 1, hint) == PNPBS_ERROR_CALLBACK, "hint");
+    spacing.fails_at = -1;
+    expect(pnpbs_placement_run(placement) >= 0, "run after a hint that failed");
+    char hash[32];
+    hash_of_nodes(placement, hash);
+    hashes[fails ? 1 : 0] = hash;
+    pnpbs_placement_destroy(&placement);
+  }
+  expect(hashes[0] == hashes[1], "a hint that failed changed the nodes");
+}
+
 void checks() {
+  check_hints();
   for (const Shape& shape : shapes())
     for (const Case& c : cases()) check(shape, c);
   check_reading();
