@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock seconds for each phase of a run, and the number of nodes that each phase computes for,
-// for the report.
+// Wall-clock seconds for each phase of a run, the share of them in which the rank waited for
+// others, and the number of nodes that each phase computes for, for the report.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace pnpbs {
 
-// The phases of a run. `total` is the whole run.
+// The phases of a run. `other` is everything that belongs to none of the others.
 enum class Phase {
   boundary,
   tree,
@@ -24,9 +26,9 @@ enum class Phase {
   stars,
   sweeps,
   conformity,
-  total
+  other
 };
-inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::total) + 1;
+inline constexpr std::size_t kPhases = static_cast<std::size_t>(Phase::other) + 1;
 
 // Numbers of nodes that a phase computes for. A rank also computes for ghosts where this replaces
 // messages.
@@ -39,37 +41,66 @@ struct NodesWorkedFor {
   }
 };
 
-// The times and node counts of all phases.
+// The times and node counts of all phases. Each moment belongs to one phase, the one that was
+// entered last, so the phases sum up to the total.
 class Timers {
  public:
-  double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
-  void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
-  const NodesWorkedFor& nodes(Phase phase) const { return nodes_[static_cast<std::size_t>(phase)]; }
-  void add(Phase phase, const NodesWorkedFor& more) {
-    nodes_[static_cast<std::size_t>(phase)].add(more);
-  }
+  using Seconds = std::array<double, kPhases>;
+
+  // `waited` are the seconds that this rank has spent in communication so far. It must outlive the
+  // timers.
+  explicit Timers(const double& waited) : waited_so_far_(&waited) {}
+
+  double seconds(Phase phase) const { return seconds_[index(phase)]; }
+  double total() const { return std::accumulate(seconds_.begin(), seconds_.end(), 0.0); }
+  // Returns the seconds of a phase that this rank spent in communication: waiting for other ranks,
+  // and the transfer itself.
+  double waiting(Phase phase) const { return waiting_[index(phase)]; }
+  double total_waiting() const { return std::accumulate(waiting_.begin(), waiting_.end(), 0.0); }
+
+  const NodesWorkedFor& nodes(Phase phase) const { return nodes_[index(phase)]; }
+  void add(Phase phase, const NodesWorkedFor& more) { nodes_[index(phase)].add(more); }
 
  private:
-  std::array<double, kPhases> seconds_{};
+  friend class PhaseTimer;
+  using Clock = std::chrono::steady_clock;
+
+  static std::size_t index(Phase phase) { return static_cast<std::size_t>(phase); }
+
+  // Adds the time since the last change to the present phase, if there is one, and enters another
+  // phase or none. Returns the phase before.
+  std::size_t change_to(std::size_t phase) {
+    const Clock::time_point now = Clock::now();
+    if (present_ < kPhases) {
+      seconds_[present_] += std::chrono::duration<double>(now - since_).count();
+      waiting_[present_] += *waited_so_far_ - waited_since_;
+    }
+    since_ = now;
+    waited_since_ = *waited_so_far_;
+    return std::exchange(present_, phase);
+  }
+
+  Seconds seconds_{}, waiting_{};
   std::array<NodesWorkedFor, kPhases> nodes_{};
+  std::size_t present_ = kPhases;  // index of the present phase; kPhases: none
+  Clock::time_point since_;
+  double waited_since_ = 0;
+  const double* waited_so_far_;
 };
 
-// A timer that adds the time until the end of its scope to a phase.
+// Until the end of its scope time belongs to a phase, except while another PhaseTimer exists within
+// the scope.
 class PhaseTimer {
  public:
   PhaseTimer(Timers& timers, Phase phase)
-      : timers_(timers), phase_(phase), start_(std::chrono::steady_clock::now()) {}
+      : timers_(timers), before_(timers.change_to(Timers::index(phase))) {}
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
-  ~PhaseTimer() {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    timers_.add(phase_, passed.count());
-  }
+  ~PhaseTimer() { timers_.change_to(before_); }
 
  private:
   Timers& timers_;
-  Phase phase_;
-  std::chrono::steady_clock::time_point start_;
+  const std::size_t before_;
 };
 
 }  // namespace pnpbs

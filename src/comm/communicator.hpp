@@ -17,6 +17,7 @@
 // or if it stops sending messages at all.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -68,6 +69,9 @@ class Communicator {
   virtual int size() const = 0;
   // Returns the number of ranks of this communicator on this node, which share its cores.
   virtual int ranks_on_node() const = 0;
+  // Returns the seconds that this rank has spent in communication so far. The reference stays valid
+  // as long as the communicator. Local.
+  const double& seconds_waited() const { return seconds_waited_; }
 
   // Reductions of integers and maxima only, so that no result depends on the order of the ranks.
   std::uint64_t allreduce_sum(std::uint64_t value) const;  // modulo 2^64
@@ -129,6 +133,21 @@ class Communicator {
   // Throws if `size` bytes are too many for allgather_bytes(). Otherwise returns the size as an
   // int.
   virtual int message_length(std::uint64_t size) const = 0;
+  // Adds the time until the end of its scope to the seconds in communication. Not to be nested.
+  class WaitTimer {
+   public:
+    explicit WaitTimer(const Communicator& comm) : comm_(comm) {}
+    WaitTimer(const WaitTimer&) = delete;
+    WaitTimer& operator=(const WaitTimer&) = delete;
+    ~WaitTimer() {
+      comm_.seconds_waited_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    const Communicator& comm_;
+    const Clock::time_point start_ = Clock::now();
+  };
   // Returns the number of failures that the ranks have agreed on, which is the same on all ranks.
   std::uint32_t agreed_failures() const { return agreed_failures_; }
 
@@ -137,6 +156,7 @@ class Communicator {
   Reduction reduce_or_fail(Reduction mine, std::exception_ptr failure = nullptr) const;
 
   mutable std::uint32_t agreed_failures_ = 0;
+  mutable double seconds_waited_ = 0;
 };
 
 // Returns a communicator of one process.

@@ -115,6 +115,7 @@ class MpiCommunicator : public Communicator {
       messages.reserve(pieces_of(outgoing) + pieces_of(incoming));
     });
     agree_on_failure(*this, failure);
+    const WaitTimer timer(*this);
     post(comm_, tag(kDataTag), neighbours, outgoing, incoming, messages);
     messages.wait();
     return incoming;
@@ -139,7 +140,10 @@ class MpiCommunicator : public Communicator {
     });
     agree_on_failure(*this, failure);
     if (size_ == 1) return incoming;
-    exchange->run(incoming, dropped_.get(), failure);
+    {
+      const WaitTimer timer(*this);
+      exchange->run(incoming, dropped_.get(), failure);
+    }
     agree_on_failure(*this, failure);
     std::sort(incoming.begin(), incoming.end(),
               [](const Message& a, const Message& b) { return a.rank < b.rank; });
@@ -157,11 +161,13 @@ class MpiCommunicator : public Communicator {
  protected:
   Reduction reduce(const Reduction& mine) const override {
     require_mpi_runs();
+    const WaitTimer timer(*this);
     Reduction all;
     check(MPI_Allreduce(&mine, &all, 1, reduction_, combining_, comm_), "MPI_Allreduce");
     return all;
   }
   void sum_entries(std::vector<std::int64_t>& values) const override {
+    const WaitTimer timer(*this);
     check(MPI_Allreduce(MPI_IN_PLACE, values.data(), count(values.size()), MPI_INT64_T, MPI_SUM,
                         comm_),
           "MPI_Allreduce");
@@ -169,19 +175,23 @@ class MpiCommunicator : public Communicator {
   std::int64_t scan(std::int64_t value) const override {
     const auto mine = static_cast<std::uint64_t>(value);
     std::uint64_t before = 0;
+    const WaitTimer timer(*this);
     check(MPI_Exscan(&mine, &before, 1, MPI_UINT64_T, MPI_SUM, comm_), "MPI_Exscan");
     // MPI leaves the result of rank 0 undefined.
     return rank_ == 0 ? 0 : static_cast<std::int64_t>(before);
   }
   void broadcast_bytes(char* bytes, std::size_t n, int root) const override {
+    const WaitTimer timer(*this);
     check(MPI_Bcast(bytes, count(n), MPI_BYTE, root, comm_), "MPI_Bcast");
   }
   void allgather_sizes(std::uint64_t mine, std::vector<std::uint64_t>& all) const override {
+    const WaitTimer timer(*this);
     check(MPI_Allgather(&mine, 1, MPI_UINT64_T, all.data(), 1, MPI_UINT64_T, comm_),
           "MPI_Allgather");
   }
   void allgather_bytes(const Bytes& mine, const std::vector<int>& sizes,
                        const std::vector<int>& offsets, Bytes& all) const override {
+    const WaitTimer timer(*this);
     check(MPI_Allgatherv(mine.data(), count(mine.size()), MPI_BYTE, all.data(), sizes.data(),
                          offsets.data(), MPI_BYTE, comm_),
           "MPI_Allgatherv");
@@ -216,11 +226,12 @@ class MpiCommunicator : public Communicator {
     }
     void wait() override {
       require_mpi_runs();
+      const WaitTimer timer(comm_);
       messages_.wait();
     }
 
    private:
-    const MpiCommunicator& comm_;  // used only by start()
+    const MpiCommunicator& comm_;  // used by start() and wait() only
     const std::vector<int> neighbours_;
     const std::vector<Bytes>& outgoing_;
     std::vector<Bytes>& incoming_;
@@ -239,6 +250,7 @@ class MpiCommunicator : public Communicator {
   void exchange_sizes(const std::vector<int>& neighbours,
                       const std::vector<Bytes>& outgoing) const {
     require_mpi_runs();
+    const WaitTimer timer(*this);
     constexpr int kBytes = sizeof(std::uint64_t);
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       sizes_out_[k] = outgoing[k].size();

@@ -105,7 +105,7 @@ class Placement {
   Options options_;
   RunState state_;
   Monitoring monitoring_;
-  Timers timers_;
+  Timers timers_{comm_->seconds_waited()};
 };
 
 }  // namespace pnpbs

@@ -189,7 +189,7 @@ std::shared_ptr<Level<Dim>> PlacementImpl<Dim>::replace_level(std::shared_ptr<Le
 template <int Dim>
 Outcome PlacementImpl<Dim>::initialise() {
   require_kokkos();
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   require_same_options();
   return transaction([this] {
     release_present_nodes();
@@ -246,7 +246,7 @@ Outcome PlacementImpl<Dim>::run_steps(const Steps& steps) {
 template <int Dim>
 Outcome PlacementImpl<Dim>::run() {
   require_kokkos();
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   struct Rounds {
     int& count;
     ~Rounds() { count = 0; }
@@ -410,7 +410,7 @@ Outcome PlacementImpl<Dim>::step(std::int64_t n) {
   require_kokkos();
   if (!comm_->same_on_all(static_cast<std::uint64_t>(n)))
     throw Error(ErrorKind::argument, "argument n differs between ranks");
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   return run_steps([&] {
     const std::int64_t until =
         state_.schedule.step > kNoLimit - n ? kNoLimit : state_.schedule.step + n;
@@ -421,7 +421,7 @@ Outcome PlacementImpl<Dim>::step(std::int64_t n) {
 template <int Dim>
 Outcome PlacementImpl<Dim>::rebalance() {
   require_kokkos();
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   return transaction([this] {
     if (prepare_level() == Outcome::stopped) return Outcome::stopped;
     return with_exact_ghosts([this] {
@@ -434,7 +434,7 @@ Outcome PlacementImpl<Dim>::rebalance() {
 template <int Dim>
 Outcome PlacementImpl<Dim>::adjust_population(PopulationCounts& change) {
   require_kokkos();
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   const PopulationCounts before{state_.inserted, state_.deleted};
   const Outcome outcome = transaction([this] {
     const Outcome prepared = prepare_level();
@@ -480,7 +480,7 @@ void PlacementImpl<Dim>::require_same_as(const SavedState& saved) {
 template <int Dim>
 void PlacementImpl<Dim>::restore(const SavedState& saved, std::vector<SavedNode<Dim>> nodes,
                                  Patch<Dim> patch) {
-  const PhaseTimer timer(timers_, Phase::total);
+  const PhaseTimer timer(timers_, Phase::other);
   require_same_as(saved);
   transaction([&] {
     continue_from(saved, std::move(nodes), std::move(patch));

@@ -34,6 +34,11 @@ double seconds(P p) {
   return p.timers().seconds(phase);
 }
 
+template <Phase phase>
+double waiting(P p) {
+  return p.timers().waiting(phase);
+}
+
 // Returns the number of nodes worked for over the number of owned ones, summed over all ranks.
 // Collective.
 template <Phase phase>
@@ -202,8 +207,28 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.sweeps", seconds<Phase::sweeps>, "finishing sweeps"),
       real("seconds.conformity", seconds<Phase::conformity>,
            "making the elements conform to the boundary of the domain, and checking them"),
-      real("seconds.total", seconds<Phase::total>,
-           "from domain and spacing given to nodes available, without files"),
+      real("seconds.other", seconds<Phase::other>, "everything else"),
+      real(
+          "seconds.total", [](P p) { return p.timers().total(); },
+          "from domain and spacing given to nodes available, without files: the sum of the phases "
+          "above"),
+      real("waiting.boundary", waiting<Phase::boundary>,
+           "seconds of this phase that this rank spent in communication: waiting for other ranks, "
+           "and the transfer itself; likewise the next ones"),
+      real("waiting.tree", waiting<Phase::tree>, "the same of the tree"),
+      real("waiting.partition", waiting<Phase::partition>, "the same of the partition"),
+      real("waiting.fill", waiting<Phase::fill>, "the same of the initial inner nodes"),
+      real("waiting.spacing", waiting<Phase::spacing>, "the same of the evaluation of d"),
+      real("waiting.lists", waiting<Phase::lists>, "the same of the lists"),
+      real("waiting.motion", waiting<Phase::motion>, "the same of the motion"),
+      real("waiting.exchange", waiting<Phase::exchange>, "the same of the exchange"),
+      real("waiting.population", waiting<Phase::population>, "the same of population control"),
+      real("waiting.stars", waiting<Phase::stars>, "the same of the stars"),
+      real("waiting.sweeps", waiting<Phase::sweeps>, "the same of the sweeps"),
+      real("waiting.conformity", waiting<Phase::conformity>, "the same of conformity"),
+      real("waiting.other", waiting<Phase::other>, "the same of everything else"),
+      real(
+          "waiting.total", [](P p) { return p.timers().total_waiting(); }, "the sum of these"),
       integer(
           "memory.peak_bytes", [](P) { return peak_memory(); },
           "peak memory of this process so far"),

@@ -327,6 +327,10 @@ START_TEST(statistics_mean_what_they_say) {
     }
   }
   ck_assert(parts > 0);
+  ck_assert_double_eq_tol(parts, real_of(it.placement, "seconds.total"), 1e-9 * parts);
+  ck_assert(real_of(it.placement, "seconds.other") > 0);
+  ck_assert(real_of(it.placement, "seconds.motion") < 0.9 * parts); /* no moment counts twice */
+  ck_assert_double_eq(real_of(it.placement, "waiting.total"), 0);   /* one rank waits for none */
   ck_assert(real_of(it.placement, "seconds.boundary") > 0);
   result_free(&nodes);
   MUST(pnpbs_placement_set(it.placement, "tolerance_mean", "1"));

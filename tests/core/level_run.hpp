@@ -69,7 +69,8 @@ inline pnpbs::IncomingNodes<2> inner_nodes_of(const pnpbs::Level<2>& level) {
 
 struct LevelRun {
   std::shared_ptr<pnpbs::PlaneDomain> domain = std::make_shared<pnpbs::PlaneDomain>();
-  std::unique_ptr<pnpbs::Timers> timers = std::make_unique<pnpbs::Timers>();
+  std::shared_ptr<pnpbs::Communicator> comm = pnpbs::serial_communicator();
+  std::unique_ptr<pnpbs::Timers> timers = std::make_unique<pnpbs::Timers>(comm->seconds_waited());
   std::unique_ptr<pnpbs::Level<2>> level;
   std::int64_t event_interval = 20;
   std::int64_t steps_done = 0;
@@ -84,8 +85,7 @@ struct LevelRun {
     pnpbs::Settings settings(chosen);
     if (adapt) adapt(settings);
     event_interval = settings.event_interval;
-    level = std::make_unique<pnpbs::Level<2>>(pnpbs::serial_communicator(), domain, spacing_of(d),
-                                              settings, *timers);
+    level = std::make_unique<pnpbs::Level<2>>(comm, domain, spacing_of(d), settings, *timers);
     level->grow_tree();
   }
 

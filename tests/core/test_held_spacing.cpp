@@ -29,7 +29,7 @@ double expected_at(const Point3& place) {
   placed.held.places.push_back({place, kHeld});
   const auto comm = pnpbs::serial_communicator();
   pnpbs::apply_local_reductions(*comm, placed, settings);
-  pnpbs::Timers timers;
+  pnpbs::Timers timers(comm->seconds_waited());
   pnpbs::Level<3> level(comm, domain, std::make_shared<pnpbs::SizingField<3>>(placed.d), settings,
                         timers);
   level.grow_tree();

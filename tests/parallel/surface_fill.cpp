@@ -219,7 +219,7 @@ Put put_on_box(const std::shared_ptr<const pnpbs::Communicator>& over) {
   domain->add_box({0, 0, 0}, {1, 1, 1}, 1);
   domain->set_filled(false);
   domain->check();
-  pnpbs::Timers timers;
+  pnpbs::Timers timers(comm->seconds_waited());
   pnpbs::Level<3> level(over, domain, d, pnpbs::Settings(pnpbs::Options{}, 2), timers);
   level.grow_tree();
   const std::int64_t by_tree = asked;
