@@ -8,17 +8,6 @@
 
 namespace pnpbs {
 
-// The lists are made for the present positions, which become the reference positions for
-// visibility.
-template <int Dim>
-void prepare_finish(Level<Dim>& level) {
-  take_stars(level);
-  level.nodes.set_reference_positions();
-  exchange(level, kRepairHops<Dim>);
-  collective_try(*level.comm,
-                 [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
-}
-
 namespace {
 
 template <int Dim>
@@ -30,9 +19,16 @@ bool prepared_for_finish(const Level<Dim>& level) {
 
 }  // namespace
 
+// The lists are built for the present positions, which become the reference positions for
+// visibility.
 template <int Dim>
 void require_finish_lists(Level<Dim>& level) {
-  if (!prepared_for_finish(level)) prepare_finish(level);
+  if (prepared_for_finish(level)) return;
+  take_stars(level);
+  level.nodes.set_reference_positions();
+  exchange(level, kRepairHops<Dim>);
+  collective_try(*level.comm,
+                 [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
 }
 
 // Stars are expensive in space, so they are kept if nothing has moved since they were found.
@@ -45,8 +41,6 @@ void make_finish_stars(Level<Dim>& level, GhostStarDepth zone) {
   level.finish_stars = of_owned ? level.version() : -1;
 }
 
-template void prepare_finish(Level<2>&);
-template void prepare_finish(Level<3>&);
 template void require_finish_lists(Level<2>&);
 template void require_finish_lists(Level<3>&);
 template void make_finish_stars(Level<2>&, GhostStarDepth);

@@ -42,12 +42,8 @@ inline std::vector<EdgeBand> sweep_to_centroids(Level<3>&, std::int64_t) { retur
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds);
 inline void repair_obtuse_triangles(Level<3>&, std::int64_t) {}
 
-// Exchanges ghosts and builds lists for the finish at the present positions. All ranks must call
-// it, and if one rank throws, all ranks throw.
-template <int Dim>
-void prepare_finish(Level<Dim>& level);
-// Does the same unless such lists exist. All ranks must call it, and if one rank throws, all ranks
-// throw.
+// Exchanges ghosts and builds lists for the finish at the present positions, unless such lists
+// exist. All ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>
 void require_finish_lists(Level<Dim>& level);
 // Builds lists for the finish if necessary, and finds the stars of the owned nodes and of the

@@ -100,6 +100,8 @@ void make_known(Level<Dim>& level, const std::vector<Box<Dim>>& boxes, double ra
   collective_try(*level.comm, [&] { rebuild_lists(level, radius, lists_of_stars(level)); });
 }
 
+}  // namespace
+
 // The ghosts must follow the new order of the nodes even if the sort fails after changing it.
 template <int Dim>
 void sort_nodes(Level<Dim>& level) {
@@ -114,8 +116,6 @@ void sort_nodes(Level<Dim>& level) {
     level.ghosts.permute(level.neighbourhood.buckets().order(), level.nodes.count);
   if (failure) std::rethrow_exception(failure);
 }
-
-}  // namespace
 
 template <int Dim>
 void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed) {
@@ -186,6 +186,8 @@ void prepare_lists(Level<Dim>& level) {
     rebuild_lists(level, level.settings.adjacency_radius);
 }
 
+template void sort_nodes(Level<2>&);
+template void sort_nodes(Level<3>&);
 template void rebuild_lists_for_steps(Level<2>&, ListsOf);
 template void rebuild_lists_for_steps(Level<3>&, ListsOf);
 template void rebuild_lists(Level<2>&, double, ListsOf);

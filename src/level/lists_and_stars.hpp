@@ -10,6 +10,9 @@
 
 namespace pnpbs {
 
+// Sorts the nodes in memory by bucket, as every rebuild of lists does. Local.
+template <int Dim>
+void sort_nodes(Level<Dim>& level);
 // Builds the lists for steps, with visibility at the reference positions. Local.
 template <int Dim>
 void rebuild_lists_for_steps(Level<Dim>& level, ListsOf listed = ListsOf::all_nodes);

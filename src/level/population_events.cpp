@@ -105,7 +105,6 @@ void receive_ghost_bids(const Level<Dim>& level, const std::vector<std::int32_t>
 template <int Dim>
 PopulationCounts carry_out(Level<Dim>& level, PopulationChange<Dim> change) {
   Nodes<Dim>& nodes = level.nodes;
-  const PhaseTimer timer(level.timers, Phase::population);
   find_carriers(level, change);
   // Owners count their own nodes. The owner of the parent counts and sends an insertion.
   PopulationCounts counts;
@@ -136,7 +135,6 @@ View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
   View<Bid<Dim>> bids;
   collective_try(*level.comm, [&] {
     add_lists_around(level, owned_beside_gaps<Dim>(nodes, ratios, rule, thresholds), kRoomHops - 1);
-    const PhaseTimer timer(level.timers, Phase::population);
     const View<char> no_room = nodes_without_room(level);
     bids = bids_of_owned<Dim>(
         nodes, level.lists(), ratios, rule, thresholds,
@@ -153,6 +151,7 @@ View<Bid<Dim>> gather_bids(Level<Dim>& level, const View<double>& ratios,
 
 template <int Dim>
 PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
+  const PhaseTimer timer(level.timers, Phase::population);
   const Nodes<Dim>& nodes = level.nodes;
   level.nodes.set_reference_positions();
   // Deep enough also for the steps that follow if nothing changes.
@@ -160,7 +159,6 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   View<double> ratios;
   collective_try(*level.comm, [&] {
     rebuild_lists_for_steps(level, lists_of_steps(level.settings));
-    const PhaseTimer timer(level.timers, Phase::population);
     ratios = overlap_ratios<Dim>(nodes, level.lists());
   });
   const PopulationThresholds thresholds = choose_thresholds<Dim>(
@@ -170,7 +168,6 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
   PopulationChange<Dim> change;
   collective_try(*level.comm, [&] {
     add_lists_around(level, bidders, method::kContestHops - 1);
-    const PhaseTimer timer(level.timers, Phase::population);
     change = outcome_of_contest<Dim>(nodes, level.lists(), bids, bidders);
     count_uses_by_event(level, kPopulationHops);
   });
@@ -178,13 +175,13 @@ PopulationCounts adjust_population(Level<Dim>& level, double tolerance) {
 }
 
 PopulationCounts repair_defects(Level<2>& level) {
+  const PhaseTimer timer(level.timers, Phase::population);
   level.nodes.set_reference_positions();
   exchange(level, kDefectHops);
   make_lists_and_stars(level, kDefectHops, level.settings.list_radius, {kDefectRings});
   count_uses_by_event(level, kDefectHops);
   PopulationChange<2> change;
   collective_try(*level.comm, [&] {
-    const PhaseTimer timer(level.timers, Phase::population);
     change = choose_defect_repairs(
         level.nodes, level.stars, level.settings.defects.bad_below,
         [&](const Point<2>& x, double d) { return has_clearance(level, x, d); });
@@ -196,10 +193,10 @@ PopulationCounts repair_defects(Level<2>& level) {
 PopulationCounts repair_defects(Level<3>&) { return {}; }
 
 PopulationCounts place_first_row(Level<2>& level) {
+  const PhaseTimer timer(level.timers, Phase::population);
   require_finish_lists(level);
   PopulationChange<2> change;
   collective_try(*level.comm, [&] {
-    const PhaseTimer timer(level.timers, Phase::population);
     FirstRow row =
         choose_first_row(level.nodes, level.lists(), level.map(), level.geometry.sectors(),
                          [&](std::int32_t b) { return level.geometry.boundary_spacing(b); });

@@ -119,7 +119,6 @@ std::vector<std::int32_t> crowded_nodes(Level<Dim>& level) {
       owned_without_room(nodes, nodes_without_room<Dim>(level));
   if (waiting.empty()) return {};
   add_lists_around(level, waiting, kCoincidingHops - 1);
-  const PhaseTimer timer(level.timers, Phase::population);
   const View<char> no_room = nodes_without_room<Dim>(level);
   std::vector<std::int32_t> crowded;
   for (const std::int32_t i : waiting) {
@@ -138,9 +137,10 @@ std::vector<std::int32_t> crowded_nodes(Level<Dim>& level) {
 // in the next round.
 template <int Dim>
 PopulationCounts remove_crowded(Level<Dim>& level) {
+  const PhaseTimer timer(level.timers, Phase::population);
   PopulationCounts counts;
   while (true) {
-    prepare_finish(level);
+    require_finish_lists(level);
     std::vector<std::int32_t> crowded;
     collective_try(*level.comm, [&] {
       crowded = crowded_nodes(level);

@@ -27,9 +27,9 @@ void gather_unknown_uses(const Level<Dim>& level, RunState& run) {
 void measure_finish(Results<2>&, const PlacedSpacing<2>&, RunState&) {}
 
 void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunState& run) {
-  results.prepare_stars();
   const Level<3>& level = results.level();
   const PhaseTimer timer(level.timers, Phase::conformity);
+  results.prepare_stars();
   const View<char> held = held_nodes(level, placed);  // d is not the user's at these nodes
   collective_try(*level.comm, [&] {
     run.edge_bands = edge_bands_to_judge<3>(*level.comm, {level.nodes}, level.stars, held);

@@ -69,7 +69,6 @@ std::vector<std::int64_t> blocking_ids(const Level<3>& level, const std::vector<
 
 // Returns the ids of the nodes to remove, the same on all ranks. Collective.
 std::vector<std::int64_t> ids_to_remove(Level<3>& level, std::int64_t& nodes_off_before) {
-  const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<char> off = nodes_off(level);
   const auto count = static_cast<std::int64_t>(level.comm->allreduce_sum(
       static_cast<std::uint64_t>(std::ranges::count_if(off, [](char is) { return is != 0; }))));
@@ -91,7 +90,7 @@ std::int64_t remove_blocking_nodes(Level<3>& level, std::int64_t& nodes_off_befo
   for (std::int32_t i = 0; i < level.nodes.count; ++i)
     if (std::ranges::binary_search(ids, level.nodes.id(i))) leaving.push_back(i);
   delete_nodes(level, leaving);
-  prepare_finish(level);
+  require_finish_lists(level);
   return std::ssize(ids);
 }
 

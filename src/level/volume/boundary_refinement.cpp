@@ -193,7 +193,6 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
 // Returns the defects at the owned nodes. All ranks must call it, and if one rank throws, all ranks
 // throw.
 BoundaryDefects find_strays(Level<3>& level) {
-  const PhaseTimer timer(level.timers, Phase::conformity);
   BoundaryDefects own;
   collective_try(*level.comm, [&] { own = strays_of_own(level); });
   return own;
@@ -202,7 +201,6 @@ BoundaryDefects find_strays(Level<3>& level) {
 // Returns the nodes in the balls of all ranks that this rank will own. All ranks must call it, and
 // if one rank throws, all ranks throw.
 IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>& own_balls) {
-  const PhaseTimer timer(level.timers, Phase::conformity);
   const std::vector<SurfaceBall> balls = largest_apart(*level.comm, own_balls);
   IncomingNodes<3> nodes;
   collective_try(*level.comm, [&] { nodes = new_nodes(level, balls); });
@@ -233,6 +231,7 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
 }  // namespace
 
 PopulationCounts refine_boundary(Level<3>& level) {
+  const PhaseTimer timer(level.timers, Phase::conformity);
   PopulationCounts counts;
   if (level.geometry.kind() == GeometryKind::surface) return counts;
   std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();

@@ -42,7 +42,6 @@ auto may_go(const Level<3>& level) {
 // Moves nodes towards the means of their neighbours in the present stars. A few edges have other
 // nodes after the first sweep, which does not affect the next ones much. Ghosts are updated.
 void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
-  const PhaseTimer timer(level.timers, Phase::sweeps);
   for (std::int64_t s = 0; s < sweeps; ++s) {
     update_ghosts(level);
     collective_try(*level.comm, [&] {
@@ -169,7 +168,6 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
 void repair_slivers(Level<3>& level, double repair_below) {
   make_finish_stars(level, {method::kSliverRings,
                             method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
-  const PhaseTimer timer(level.timers, Phase::sweeps);
   const SliverRule rule{repair_below};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
@@ -212,6 +210,7 @@ std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const Stop
 }  // namespace
 
 FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopTest& stops) {
+  const PhaseTimer timer(level.timers, Phase::sweeps);
   if (level.geometry.kind() == GeometryKind::surface) {
     sweep_on_surfaces(level, sweeps);
     put_on_level_sets(level);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "level/volume/gaps.hpp"
 
+#include "base/found_indices.hpp"
 #include "level/exchange.hpp"
 #include "level/first_nodes.hpp"
 #include "level/lists_and_stars.hpp"
@@ -37,14 +38,19 @@ bool is_covered(const Level<3>& level, const IncomingNode<3>& candidate, double 
 }
 
 IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates, double gap) {
+  const PhaseTimer timer(level.timers, Phase::fill);
   exchange(level, kStarHops);
   IncomingNodes<3> found;
   collective_try(*level.comm, [&] {
-    rebuild_lists(level, level.settings.list_radius);
-    for (const IncomingNode<3>& candidate : candidates) {
+    sort_nodes(level);
+    const auto is_in_gap = [&](std::int64_t k) {
+      const IncomingNode<3>& candidate = candidates[static_cast<std::size_t>(k)];
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
-      if (level.tree->owns(leaf) && !is_covered(level, candidate, gap)) found.push_back(candidate);
-    }
+      return level.tree->owns(leaf) && !is_covered(level, candidate, gap);
+    };
+    for (const std::int64_t k :
+         indices_where("pnpbs::in_gaps", std::ssize(candidates), is_in_gap))
+      found.push_back(candidates[static_cast<std::size_t>(k)]);
   });
   return found;
 }

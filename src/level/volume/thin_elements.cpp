@@ -354,7 +354,6 @@ ThinElementChanges change_nodes_of_thin_elements(Level<3>& level) {
     add_nodes(level, std::move(more));
     changes.counts.deleted += removed;
     changes.counts.inserted += inserted;
-    prepare_finish(level);
     make_finish_stars(level, {});
   }
   return changes;
