@@ -27,21 +27,27 @@ class Wave:
 
 
 class Peak:
-    """The solution log(r^2 + e^2) / 2, which is steep at the origin, so that spacings that grow
-    with r suit it."""
+    """The solution log(r^2 + e^2) / 2, where r is the distance from a centre, the origin by
+    default. It is steep at the centre, so that spacings that grow with r suit it."""
     E2 = 0.05**2
 
+    def __init__(self, e2=E2, centre=0.0):
+        self.e2, self.centre = e2, np.asarray(centre)
+
+    def square(self, x):
+        return ((x - self.centre)**2).sum(1)
+
     def solution(self, x):
-        return np.log((x**2).sum(1) + self.E2) / 2
+        return np.log(self.square(x) + self.e2) / 2
 
     def gradient(self, x):
-        return x / ((x**2).sum(1) + self.E2)[:, None]
+        return (x - self.centre) / (self.square(x) + self.e2)[:, None]
 
     def source(self, x):
-        square = (x**2).sum(1)
+        square = self.square(x)
         if x.shape[1] == 2:
-            return -2 * self.E2 / (square + self.E2)**2
-        return -(square + 3 * self.E2) / (square + self.E2)**2
+            return -2 * self.e2 / (square + self.e2)**2
+        return -(square + 3 * self.e2) / (square + self.e2)**2
 
 
 class Case:

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of the elements of the comparison: Order p finds a polynomial of degree p exactly, and the
-problems' sources belong to their solutions."""
+"""Tests of the elements of the comparison: Order p finds a polynomial of degree p exactly, the
+problems' sources belong to their solutions, and known power laws give the known ratio of meshing
+times at an equal error."""
 import itertools
 import unittest
 
 import numpy as np
 from scipy.spatial import Delaunay
 
+import study
+from body_cases import BODIES
 from elements import Mesh, Solved, Space
-from problems import Peak, Wave
+from equal_error import Comparison, Curve
+from problems import CASES, Peak, Wave
 
 
 def scattered(dim, inner=40):
@@ -60,7 +64,7 @@ class Elements(unittest.TestCase):
         self.assertEqual(space.fixed.sum(), 16)
 
     def test_problems(self):
-        for dim, problem in itertools.product((2, 3), (Wave(), Peak())):
+        for dim, problem in itertools.product((2, 3), (Wave(), Peak(), Peak(0.2, 0.5))):
             x, step = np.random.default_rng(1).random((20, dim)), 1e-4
             ways = step * np.eye(dim)
             u = problem.solution
@@ -68,6 +72,55 @@ class Elements(unittest.TestCase):
             laplace = sum((u(x + w) - 2 * u(x) + u(x - w)) / step**2 for w in ways)
             np.testing.assert_allclose(problem.gradient(x), gradient, rtol=1e-3, atol=1e-5)
             np.testing.assert_allclose(problem.source(x), -laplace, rtol=1e-3, atol=1e-4)
+
+
+def rows_by_law(nodes, error, seconds, **more):
+    """Returns results with the error a n^-p and the seconds b n^q for pairs (a, p) and (b, q)."""
+    return [{"nodes": n, "error": error[0] * n**-error[1], "meshing": seconds[0] * n**seconds[1],
+             "order": 1, **more} for n in nodes]
+
+
+class EqualError(unittest.TestCase):
+    # The errors of the first are from 0.1 to 0.05, those of the second from 0.15 to 0.06.
+    OURS = rows_by_law((1000, 3000, 8000), (1, 1 / 3), (2e-5, 1.2))
+    PEER = rows_by_law((1000, 5000, 15625), (1.5, 1 / 3), (1e-5, 1.1))
+
+    def test_power_laws_give_their_ratio(self):
+        found = Comparison(self.OURS, self.PEER)
+        np.testing.assert_allclose([found.coarse, found.middle, found.fine],
+                                   [0.1, np.sqrt(0.1 * 0.06), 0.06])
+        for error in (found.coarse, found.middle, 0.08, found.fine):
+            ours, peer = error**-3, (error / 1.5)**-3
+            self.assertAlmostEqual(found.ratio(error) / (1e-5 * peer**1.1 / (2e-5 * ours**1.2)), 1)
+            np.testing.assert_allclose([nodes(error) for nodes in found.nodes], [ours, peer])
+
+    def test_the_order_of_results_does_not_matter(self):
+        turned = Comparison(self.OURS[::-1], self.PEER[1:] + self.PEER[:1])
+        self.assertEqual(turned.ratio(0.07), Comparison(self.OURS, self.PEER).ratio(0.07))
+
+    def test_nothing_is_extrapolated(self):
+        curve = Curve([0.1, 0.05], [1, 2])
+        for error in (0.11, 0.04):
+            with self.assertRaises(ValueError):
+                curve(error)
+        with self.assertRaises(ValueError):
+            Comparison(self.OURS, rows_by_law((10, 20), (1, 1 / 3), (1, 1)))
+
+
+class Page(unittest.TestCase):
+    def test_sections_without_results_are_kept(self):
+        before = study.sections_of("text\n## " + CASES[0].title + "\n\nfigures\n\n## Other\n")
+        self.assertEqual(study.case_section([], CASES[0], before), "\nfigures\n\n")
+
+    def test_table_of_bodies(self):
+        body = BODIES[0]
+        rows = [{**row, "case": body.name, "mesher": mesher} for mesher, some in
+                (("PNPBS", EqualError.OURS), ("gmsh, HXT", EqualError.PEER)) for row in some]
+        section = study.bodies_section(rows, {})
+        ours = 0.006**-1.5
+        ratio = 1e-5 * (3.375 * ours)**1.1 / (2e-5 * ours**1.2)
+        self.assertIn(f"| {body.title} | 0.100 to 0.0600 | 0.0775 | 2 152 | 7 262 |", section)
+        self.assertIn(f"| **{ratio:.2f}** |", section)
 
 
 if __name__ == "__main__":
