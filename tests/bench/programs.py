@@ -8,9 +8,14 @@ class Failed(Exception):
     """A run that gave no result; the text says why."""
 
 
-def text_of(command, threads, time_limit):
-    """Returns the output of a command. Its standard input is empty."""
-    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
+# Makes waiting threads sleep, because other processes may use the cores.
+SHARED_CORES = {"OMP_WAIT_POLICY": "passive"}
+
+
+def text_of(command, threads, time_limit, variables=SHARED_CORES):
+    """Returns the output of a command with these environment variables. Its standard input is
+    empty."""
+    environment = dict(os.environ, OMP_NUM_THREADS=str(threads), **variables)
     try:
         done = subprocess.run([str(word) for word in command], env=environment,
                               stdin=subprocess.DEVNULL, capture_output=True, text=True,

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of the studies with small node sets: the schedule study's page, the output of pnpbs-bench
-for bodies, the invariance grid's report of differing and failing runs, and the study of particles.
-PNPBS_BENCH is the program pnpbs-bench, and PNPBS_LIBRARY the library for Python, if there is one.
-mpirun is a fake."""
+for bodies, the invariance grid's report of differing and failing runs, the study of speedup with a
+fake command, and the study of particles. PNPBS_BENCH is the program pnpbs-bench, and PNPBS_LIBRARY
+the library for Python, if there is one. mpirun is a fake."""
 import json
 import math
 import os
@@ -165,6 +165,111 @@ class Grid(InFolder):
         self.assertIn("**failed**: status 1: mpirun has detected an attempt to run as root. |",
                       done.stdout)
         self.assertNotIn("differs", done.stdout)
+
+
+# A fake of the command and of mpirun. A case takes 1, 2 and 6 s alone in its rounds. The first of the
+# SINGLE runs of a round on one rank with one thread is alone. The others are side by side and wait
+# until all of them have started.
+PLAYED = f"""#!{sys.executable}
+import json, os, sys, time
+from math import hypot
+from pathlib import Path
+words = sys.argv[1:]
+def after(option, default=None):
+    return words[words.index(option) + 1] if option in words else default
+def single_runs():
+    return log.read_text().split()
+ranks, threads = int(after("-np", 1)), int(os.environ["OMP_NUM_THREADS"])
+way, cube = (ranks, threads), after("--domain") == "box(0,0,0, 1,1,1)"
+assert os.environ["OMP_PROC_BIND"] == "false"
+assert cube or Path(after("--domain")).suffix == ".poly" and Path(after("--domain")).exists()
+x = y = 0.5
+assert abs(eval(after("--spacing")) / (3 * (0.0185 if cube else 0.000213)) - 1) < 1e-9
+log = Path("FOLDER") / ("cube" if cube else "square")
+if way == (1, 1):
+    token = f"{{os.getpid()}}-{{time.time_ns()}}"
+    with log.open("a") as file:
+        file.write(token + "\\n")
+    round, index = divmod(single_runs().index(token), SINGLE)
+    seconds = (1, 2, 6)[round] * (1, 1.25, 1.75)[index]
+    given_up = time.monotonic() + 20
+    while index and len(single_runs()) < SINGLE * (round + 1):
+        assert time.monotonic() < given_up, "the other runs have not started"
+        time.sleep(0.01)
+else:
+    round = len(single_runs()) // SINGLE - 1
+    quotients = dict([((2, 1), (1.6, 1.8, 1.5)), ((1, 2), (1.25, 1.25, 2))])[way]
+    seconds = (1, 2, 6)[round] / quotients[round]
+shares = dict(tree=0.004, lists=0.5, exchange=0.25 if ranks > 1 else 0, total=1)
+waits = dict(tree=0, lists=0, exchange=0.5, total=0.25) if ranks > 1 else dict.fromkeys(shares, 0)
+report = dict(hash="abc", nodes=7000, ranks=ranks, threads=threads,
+              seconds=dict((phase, share * seconds) for phase, share in shares.items()),
+              waiting=dict((phase, share * shares[phase] * seconds) for phase, share in waits.items()))
+CHANGES
+Path(after("--report")).write_text(json.dumps(report))
+"""
+
+
+class Speedup(InFolder):
+    def study(self, changes="", *words, cores=2):
+        text, played = PLAYED, self.folder / "played"
+        for name, value in (("FOLDER", self.folder), ("CHANGES", changes), ("SINGLE", 1 + cores)):
+            text = text.replace(name, str(value))
+        played.write_text(text)
+        played.chmod(0o755)
+        return run("speedup_study.py", "--program", played, "--mpiexec", played, "--cases",
+                   "graded-square,even-cube", "--ways", "2x1,1x2", "--pairs", 3, "--scale", 3,
+                   "--cores", cores, *words)
+
+    def test_tables(self):
+        output = self.folder / "page.md"
+        done = self.study("", "--output", output)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        _, *sections = output.read_text().split("### ")
+        self.assertEqual(len(sections), 2)
+        for case, section in zip(("graded-square", "even-cube"), sections):
+            rows = [[cell.strip() for cell in line.split("|")[1:-1]]
+                    for line in section.splitlines() if line.startswith("| ")]
+            self.assertTrue(section.startswith(f"{case}, 7 000 nodes\n"))
+            # The median of quotients, 1.6, is not the quotient of medians, 2 / (2 / 1.8).
+            self.assertEqual(rows, [
+                ["way", "seconds", "speedup", "limit of the machine"], ["---"] * 4,
+                ["alone", "2.000", "1", "1"],
+                ["2x1", "1.111", "1.60", "1.33"],
+                ["1x2", "1.600", "1.25", "1.33"],
+                ["phase", "alone", "2x1: seconds / waiting", "1x2: seconds / waiting"], ["---"] * 4,
+                ["lists", "1.000", "0.556 / 0.000", "0.800 / 0.000"],
+                ["exchange", "0.000", "0.278 / 0.139", "0.000 / 0.000"],
+                ["total", "2.000", "1.111 / 0.278", "1.600 / 0.000"]])
+
+    def test_more_workers_than_cores(self):
+        done = self.study(cores=1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| 2x1 | 1.111 | 1.60 | 0.80 |", done.stdout)  # 1 over 1.25
+
+    def test_hashes_differ(self):
+        done = self.study("if cube and ranks == 2: report['hash'] = 'def'")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("even-cube: the nodes differ: hash abc in 1x2, 2 side by side, alone; "
+                      "hash def in 2x1", done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    def test_runs_that_do_not_count(self):
+        for changes, told in (("if ranks == 2: report['ranks'] = 1",
+                               "graded-square, 2x1: the run had 1 ranks with 1 threads"),
+                              ("if threads == 2: sys.exit('no room')",
+                               "graded-square, 1x2: status 1: no room")):
+            done = self.study(changes)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(told, done.stderr)
+            (self.folder / "square").unlink()
+
+    def test_bad_arguments(self):
+        for words, told in ((("--cases", "sphere"), "unknown case sphere"), (("--ways", "2x"), "--ways"),
+                            (("--ways", "0x1"), "RANKSxTHREADS"), (("--pairs", 0), "--pairs")):
+            done = self.study("", *words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(told, done.stderr)
 
 
 @unittest.skipUnless("PNPBS_LIBRARY" in os.environ, "no library that Python can load")
