@@ -70,12 +70,16 @@ std::vector<std::int64_t> expected_work(const SizedTree<Dim>& map) {
 
 template <int Dim>
 PartitionCells<Dim> cells_of_equal_work(const LevelTree<Dim>& tree,
-                                        const std::vector<std::int64_t>& work) {
+                                        const std::vector<std::int64_t>& work,
+                                        const std::vector<std::int64_t>& rare_work) {
   const SizedTree<Dim>& map = tree.map();
-  const LeafFunctions leaves{
+  LeafFunctions leaves{
       [&](std::int32_t leaf) { return tree.owns(leaf); },
       [&](std::int32_t leaf) { return work[static_cast<std::size_t>(leaf)]; },
-      [&](std::int32_t leaf) { return map.leaf_empty(leaf) ? 0 : map.leaf_max_spacing(leaf); }};
+      [&](std::int32_t leaf) { return map.leaf_empty(leaf) ? 0 : map.leaf_max_spacing(leaf); },
+      nullptr};
+  if (!rare_work.empty())
+    leaves.rare_work = [&](std::int32_t leaf) { return rare_work[static_cast<std::size_t>(leaf)]; };
   return {tree.geometry().bounds(), cells_of_equal_work(tree.comm(), tree.tree(), leaves)};
 }
 
@@ -104,9 +108,10 @@ std::vector<std::int32_t> cut_like(const Communicator& comm, const Settings& set
 
 template <int Dim>
 Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& settings,
-                                const std::vector<std::int64_t>& work) {
+                                const std::vector<std::int64_t>& work,
+                                const std::vector<std::int64_t>& rare_work) {
   const Communicator& comm = tree.comm();
-  PartitionCells<Dim> cells = cells_of_equal_work(tree, work);
+  PartitionCells<Dim> cells = cells_of_equal_work(tree, work, rare_work);
   std::vector<std::int32_t> owner =
       keep_numbers(tree, cells, cut_on_first_rank(comm, settings, cells), work);
   return Distribution<Dim>(std::move(cells), std::move(owner), comm.rank());
@@ -114,21 +119,25 @@ Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& sett
 
 template std::vector<std::int64_t> expected_work(const SizedTree<2>&);
 template PartitionCells<2> cells_of_equal_work(const LevelTree<2>&,
+                                               const std::vector<std::int64_t>&,
                                                const std::vector<std::int64_t>&);
 template std::vector<std::int32_t> cut_on_first_rank(const Communicator&, const Settings&,
                                                      const PartitionCells<2>&);
 template std::vector<std::int32_t> cut_like(const Communicator&, const Settings&,
                                             const Distribution<2>&, const PartitionCells<2>&);
 template Distribution<2> redistributed(const LevelTree<2>&, const Settings&,
+                                       const std::vector<std::int64_t>&,
                                        const std::vector<std::int64_t>&);
 template std::vector<std::int64_t> expected_work(const SizedTree<3>&);
 template PartitionCells<3> cells_of_equal_work(const LevelTree<3>&,
+                                               const std::vector<std::int64_t>&,
                                                const std::vector<std::int64_t>&);
 template std::vector<std::int32_t> cut_on_first_rank(const Communicator&, const Settings&,
                                                      const PartitionCells<3>&);
 template std::vector<std::int32_t> cut_like(const Communicator&, const Settings&,
                                             const Distribution<3>&, const PartitionCells<3>&);
 template Distribution<3> redistributed(const LevelTree<3>&, const Settings&,
+                                       const std::vector<std::int64_t>&,
                                        const std::vector<std::int64_t>&);
 
 }  // namespace pnpbs

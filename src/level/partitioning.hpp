@@ -22,10 +22,12 @@ constexpr double kWorkPerNode = 16;  // work of a node in estimates
 template <int Dim>
 std::vector<std::int64_t> expected_work(const SizedTree<Dim>& map);
 
-// Returns cells of nearly equal work, from the work in each owned leaf. Collective.
+// Returns cells of nearly equal work, from the work in each owned leaf, and their rare work, if
+// that is given. Collective.
 template <int Dim>
 PartitionCells<Dim> cells_of_equal_work(const LevelTree<Dim>& tree,
-                                        const std::vector<std::int64_t>& work);
+                                        const std::vector<std::int64_t>& work,
+                                        const std::vector<std::int64_t>& rare_work = {});
 
 // Returns the owners of the cells from METIS. Rank 0 computes them and broadcasts them. All ranks
 // must call it, and if one rank throws, all ranks throw.
@@ -41,10 +43,11 @@ std::vector<std::int32_t> cut_like(const Communicator& comm, const Settings& set
                                    const Distribution<Dim>& other,
                                    const PartitionCells<Dim>& cells);
 
-// Returns a new partition by the work in each owned leaf. Parts are numbered so that most of the
-// work stays on its rank. Collective.
+// Returns a new partition by the work in each owned leaf, which also balances the rare work, if
+// that is given. Parts are numbered so that most of the work stays on its rank. Collective.
 template <int Dim>
 Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& settings,
-                                const std::vector<std::int64_t>& work);
+                                const std::vector<std::int64_t>& work,
+                                const std::vector<std::int64_t>& rare_work = {});
 
 }  // namespace pnpbs

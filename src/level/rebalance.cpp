@@ -10,16 +10,31 @@ namespace pnpbs {
 
 namespace {
 
-template <int Dim>
-std::vector<std::int64_t> counted_work(const Level<Dim>& level) {
+// Rare work that one rank must have more than the mean of all, per node of a rank, for a
+// repartition to pay.
+constexpr double kLeastExcess = 0.005;
+
+// Sums the work of the owned nodes by leaf.
+template <int Dim, class WorkOf>
+std::vector<std::int64_t> work_of_leaves(const Level<Dim>& level, const WorkOf& work_of) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
   const Nodes<Dim>& nodes = level.nodes;
   std::vector<std::int64_t> work(static_cast<std::size_t>(tree.leaf_count()), 0);
   for (std::int64_t i = 0; i < nodes.count; ++i)
     if (nodes.owned(i))
-      work[static_cast<std::size_t>(tree.leaf_at(nodes.position(i)))] +=
-          level.neighbourhood.work_of(i);
+      work[static_cast<std::size_t>(tree.leaf_at(nodes.position(i)))] += work_of(i);
   return work;
+}
+
+template <int Dim>
+std::vector<std::int64_t> counted_work(const Level<Dim>& level) {
+  return work_of_leaves(level, [&](std::int64_t i) { return level.neighbourhood.work_of(i); });
+}
+
+// Returns the largest over the mean of a value of all ranks. Collective.
+double imbalance_over(const Communicator& comm, std::int64_t own) {
+  const auto all = static_cast<double>(comm.allreduce_sum(static_cast<std::uint64_t>(own)));
+  return all > 0 ? comm.allreduce_max(static_cast<double>(own)) * comm.size() / all : 1;
 }
 
 template <int Dim>
@@ -32,10 +47,7 @@ void migrate(Level<Dim>& level) {
 
 template <int Dim>
 double imbalance_of(const Level<Dim>& level) {
-  const std::int64_t own = level.neighbourhood.owned_work();
-  const auto all = static_cast<double>(level.comm->allreduce_sum(static_cast<std::uint64_t>(own)));
-  return all > 0 ? level.comm->allreduce_max(static_cast<double>(own)) * level.comm->size() / all
-                 : 1;
+  return imbalance_over(*level.comm, level.neighbourhood.owned_work());
 }
 
 template <int Dim>
@@ -55,9 +67,35 @@ void rebalance(Level<Dim>& level) {
   ++level.rebalances;
 }
 
+// The lists and stars are not made again here, since those of the phase reach farther.
+template <int Dim>
+void rebalance_for(Level<Dim>& level, const View<std::int64_t>& rare_work) {
+  if (!level.distributed()) return;
+  const PhaseTimer timer(level.timers, Phase::partition);
+  const Nodes<Dim>& nodes = level.nodes;
+  const std::int64_t own =
+      static_cast<std::int64_t>(sum_of("pnpbs::rebalance_for", nodes.count, [&](std::int64_t i) {
+        return nodes.owned(i) ? static_cast<std::uint64_t>(rare_work(i)) : 0;
+      }));
+  const double excess = level.comm->allreduce_max(static_cast<double>(own)) *
+                        (1 - 1 / imbalance_over(*level.comm, own));
+  const double mean = static_cast<double>(level.comm->allreduce_sum(
+                          static_cast<std::uint64_t>(level.owned_count()))) /
+                      level.comm->size();
+  if (excess < kLeastExcess * mean) return;
+  take_stars(level);
+  level.adopt_partition(
+      redistributed(*level.tree, level.settings, counted_work(level),
+                    work_of_leaves(level, [&](std::int64_t i) { return rare_work(i); })));
+  migrate(level);
+  ++level.rebalances;
+}
+
 template double imbalance_of(const Level<2>&);
 template double imbalance_of(const Level<3>&);
 template void rebalance(Level<2>&);
 template void rebalance(Level<3>&);
+template void rebalance_for(Level<2>&, const View<std::int64_t>&);
+template void rebalance_for(Level<3>&, const View<std::int64_t>&);
 
 }  // namespace pnpbs

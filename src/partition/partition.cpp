@@ -39,12 +39,14 @@ std::vector<idx_t> as_metis(const std::vector<std::int32_t>& values) {
 constexpr int kMaxBisected = 32, kMaxTried = 8;  // numbers of ranks
 
 bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
-  idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = 1, parts = ranks, cut = 0;
+  idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = graph.weights_of_vertex,
+        parts = ranks, cut = 0;
   if (vertices < 4 * parts) return false;
   idx_t options[METIS_NOPTIONS];
   metis().set_default_options(options);
   options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
-  options[METIS_OPTION_UFACTOR] = 15;  // allows an imbalance of 1.015
+  // Allows an imbalance of 1.015. Rare work is in few cells, which may be heavy.
+  real_t imbalance[] = {1.015F, 1.05F};
   // With few parts, recursive bisection cuts a fifth less than k-way partitioning, and the best of
   // several tries even less. Its cost grows with the number of parts.
   const bool bisect = ranks <= kMaxBisected;
@@ -54,7 +56,7 @@ bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector
                      weight = as_metis(graph.weight), cut_weight = as_metis(graph.cut_weight);
   return (bisect ? metis().part_graph_recursive : metis().part_graph_kway)(
              &vertices, &constraints, offset.data(), neighbour.data(), weight.data(), nullptr,
-             cut_weight.data(), &parts, nullptr, nullptr, options, &cut, part.data()) == METIS_OK;
+             cut_weight.data(), &parts, nullptr, imbalance, options, &cut, part.data()) == METIS_OK;
 }
 
 #endif
@@ -166,6 +168,16 @@ struct CellExtent {
 
 }  // namespace
 
+namespace {
+
+// Returns what a sum of weights must be divided by to fit into the integers of METIS.
+std::int64_t scale_of(const std::vector<std::int64_t>& weights) {
+  return std::max<std::int64_t>(
+      1, std::accumulate(weights.begin(), weights.end(), std::int64_t{0}) / 1000000000);
+}
+
+}  // namespace
+
 template <int Dim>
 CellGraph cell_graph(const PartitionCells<Dim>& cells) {
   const BackgroundTree<Dim>& tree = cells.tree();
@@ -179,10 +191,10 @@ CellGraph cell_graph(const PartitionCells<Dim>& cells) {
     vertex[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(result.cell.size());
     result.cell.push_back(c);
   }
-  // Scale the weights so that their sum fits into the integers of METIS.
-  const std::int64_t total =
-      std::accumulate(cells.work().begin(), cells.work().end(), std::int64_t{0});
-  const std::int64_t scale = std::max<std::int64_t>(1, total / 1000000000);
+  const std::vector<std::int64_t>& rare = cells.rare_work();
+  const std::int64_t scale = scale_of(cells.work()), rare_scale = scale_of(rare);
+  const bool has_rare = std::ranges::any_of(rare, [](std::int64_t work) { return work > 0; });
+  if (has_rare) result.weights_of_vertex = 2;
   for (std::int32_t c : result.cell) {
     const CellExtent<Dim> own(cells, c);
     touching.for_neighbours(c, [&](std::int32_t other) {
@@ -199,6 +211,9 @@ CellGraph cell_graph(const PartitionCells<Dim>& cells) {
     result.offset.push_back(static_cast<std::int32_t>(result.neighbour.size()));
     result.weight.push_back(
         static_cast<std::int32_t>(std::max<std::int64_t>(1, cells.work(c) / scale)));
+    if (has_rare)
+      result.weight.push_back(
+          static_cast<std::int32_t>(rare[static_cast<std::size_t>(c)] / rare_scale));
   }
   return result;
 }

@@ -12,7 +12,8 @@ namespace pnpbs {
 // Returns the owner of each cell: equal shares of the work along the Morton order.
 std::vector<std::int32_t> cut_morton_order(const std::vector<std::int64_t>& work, int ranks);
 
-// Returns the owner of each cell by METIS, which cuts few interactions. Cells without work keep
+// Returns the owner of each cell by METIS, which cuts few interactions, and balances the work and,
+// if cells have any, the rare work. Cells without work keep
 // their owner of the Morton order. Parts may be empty if there are more ranks than cells with work.
 // Returns the Morton order's partition if METIS fails or balances much worse. The partition depends
 // on `seed`; the nodes do not.
@@ -39,7 +40,10 @@ double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::
 // touching cells. All weights are positive, as METIS requires.
 struct CellGraph {
   std::vector<std::int32_t> cell;  // cell of each vertex
-  std::vector<std::int32_t> offset{0}, neighbour, weight, cut_weight;
+  std::vector<std::int32_t> offset{0}, neighbour, cut_weight;
+  // Weights of the vertices: one number per vertex, or two if cells have rare work.
+  std::vector<std::int32_t> weight;
+  int weights_of_vertex = 1;
 };
 
 // Returns the graph of `cells`. In the plane, cells that share only a corner are linked with the

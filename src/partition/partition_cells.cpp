@@ -22,7 +22,7 @@ using CellKey = std::pair<std::int32_t, std::array<std::uint32_t, Dim>>;
 
 // Work and spacing of all cells of the tree, accumulated from the leaves of this rank.
 struct OwnCells {
-  std::vector<std::int64_t> work;
+  std::vector<std::int64_t> work, rare_work;
   std::vector<double> max_spacing;
   std::vector<char> own;  // 1 if this rank owns all leaves of the cell
 
@@ -30,6 +30,7 @@ struct OwnCells {
   OwnCells(const BackgroundTree<Dim>& tree, const LeafFunctions& leaves) {
     const auto cells = static_cast<std::size_t>(tree.cell_count());
     work.assign(cells, 0);
+    rare_work.assign(cells, 0);
     max_spacing.assign(cells, 0);
     own.assign(cells, 1);
     for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
@@ -38,12 +39,14 @@ struct OwnCells {
       if (cell.first_child < 0) {
         own[at] = leaves.owned(cell.leaf);
         if (own[at]) work[at] = leaves.work(cell.leaf);
+        if (own[at] && leaves.rare_work) rare_work[at] = leaves.rare_work(cell.leaf);
         max_spacing[at] = leaves.max_spacing(cell.leaf);
         continue;
       }
       for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k) {
         const auto child = static_cast<std::size_t>(cell.first_child + k);
         work[at] += work[child];
+        rare_work[at] += rare_work[child];
         max_spacing[at] = std::max(max_spacing[at], max_spacing[child]);
         own[at] = own[at] && own[child];
       }
@@ -59,7 +62,8 @@ void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::i
   const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
   const bool leaf = cell.first_child < 0;
   if (known.own[at] && (leaf || known.work[at] <= share)) {
-    pack(found, PartitionCell<Dim>{cell.index, cell.depth, known.work[at], known.max_spacing[at]});
+    pack(found, PartitionCell<Dim>{cell.index, cell.depth, known.work[at], known.max_spacing[at],
+                                   known.rare_work[at]});
   } else if (!leaf) {
     for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
       put_together<Dim>(tree, known, share, cell.first_child + k, found);
@@ -87,6 +91,7 @@ PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
           above.count({tree.cell(c).depth, tree.cell(c).index}) > 0;
   });
   work_.assign(static_cast<std::size_t>(count()), 0);
+  rare_work_.assign(static_cast<std::size_t>(count()), 0);
   max_spacing_.assign(static_cast<std::size_t>(count()), 0);
   for (const PartitionCell<Dim>& cell : cells) {
     const double side = std::ldexp(tree_.side(), -cell.depth);
@@ -94,6 +99,7 @@ PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
     for (int k = 0; k < Dim; ++k) centre[k] = tree_.origin()[k] + side * (cell.index[k] + 0.5);
     const auto leaf = static_cast<std::size_t>(at(centre));
     work_[leaf] = cell.work;
+    rare_work_[leaf] = cell.rare_work;
     max_spacing_[leaf] = cell.max_spacing;
   }
 }

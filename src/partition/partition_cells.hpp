@@ -20,6 +20,9 @@ struct PartitionCell {
   std::int32_t depth;
   std::int64_t work;   // cost of its nodes
   double max_spacing;  // largest sample of d in the cell; 0: outside the domain
+  // Cost of a phase that has little to do at most nodes, and which the partition balances as well;
+  // 0 in all cells if there is no such phase.
+  std::int64_t rare_work = 0;
 };
 
 // The partition cells, as the leaves of a tree of their own.
@@ -34,21 +37,23 @@ class PartitionCells {
   std::int32_t at(const Point<Dim>& x) const { return tree_.leaf_at(x); }
   std::int64_t work(std::int32_t c) const { return work_[static_cast<std::size_t>(c)]; }
   const std::vector<std::int64_t>& work() const { return work_; }
+  const std::vector<std::int64_t>& rare_work() const { return rare_work_; }
   double max_spacing(std::int32_t c) const { return max_spacing_[static_cast<std::size_t>(c)]; }
   // Tree with the partition cells as leaves.
   const BackgroundTree<Dim>& tree() const { return tree_; }
 
  private:
   BackgroundTree<Dim> tree_;
-  std::vector<std::int64_t> work_;
+  std::vector<std::int64_t> work_, rare_work_;
   std::vector<double> max_spacing_;
 };
 
 // Properties of the leaves of a rank's tree.
 struct LeafFunctions {
   std::function<bool(std::int32_t leaf)> owned;
-  std::function<std::int64_t(std::int32_t leaf)> work;   // called for owned leaves only
-  std::function<double(std::int32_t leaf)> max_spacing;  // 0: the leaf is outside the domain
+  std::function<std::int64_t(std::int32_t leaf)> work;       // called for owned leaves only
+  std::function<double(std::int32_t leaf)> max_spacing;      // 0: the leaf is outside the domain
+  std::function<std::int64_t(std::int32_t leaf)> rare_work;  // called for owned leaves; null: 0
 };
 
 // Returns partition cells with about equal work. Each rank combines the leaves that it owns into

@@ -86,7 +86,7 @@ START_TEST(nodes_that_went_on) {
   constexpr double kClearance = 0.6, kWay = 0.25;  // in spacings
   const std::unique_ptr<Placement> placement = cube_with_cavity();
   auto& level = const_cast<Level&>(placement->level());
-  pnpbs::prepare_finish(level);
+  pnpbs::require_finish_lists(level);
   pnpbs::Nodes<3>& nodes = level.nodes;
   int refused = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {

@@ -73,7 +73,7 @@ inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicato
       comm, tree,
       {[&](std::int32_t leaf) { return owner[at(leaf)] == comm.rank(); },
        [&](std::int32_t leaf) { return work[at(leaf)]; },
-       [&](std::int32_t leaf) { return d[at(leaf)]; }});
+       [&](std::int32_t leaf) { return d[at(leaf)]; }, nullptr});
 }
 
 // Returns a distribution of the tree by METIS. The distribution points to the tree, which must not

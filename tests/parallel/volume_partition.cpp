@@ -185,6 +185,22 @@ void check_cut(const PartitionCells<3>& cells, const pnpbs::CellGraph& graph, st
                 static_cast<long long>(plain_cut));
 }
 
+// Cells in one octant have rare work as well, which no part may have much more of than its share.
+void check_cut_with_rare_work(std::vector<PartitionCell<3>> list) {
+  const int ranks = comm->size();
+  for (PartitionCell<3>& cell : list) {
+    const std::uint32_t half = 1U << (cell.depth > 0 ? cell.depth - 1 : 0);
+    if (cell.depth > 0 && cell.index[0] < half && cell.index[1] < half && cell.index[2] < half)
+      cell.rare_work = cell.work / 10;
+  }
+  const PartitionCells<3> cells({{0, 0, 0}, {1, 1, 1}}, list);
+  const std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, ranks, 1);
+  const double often = pnpbs::imbalance(owner, cells.work(), ranks),
+               rare = pnpbs::imbalance(owner, cells.rare_work(), ranks);
+  if (comm->rank() == 0) std::printf("imbalance %.3f, of rare work %.3f\n", often, rare);
+  expect(often <= 1.1 && rare <= 1.2, "balance of both kinds of work");
+}
+
 void check_partition() {
   const BackgroundTree<3> tree = octree::refined_to(leaf_width);
   const std::vector<double> d = octree::max_spacings(tree, spacing);
@@ -196,6 +212,7 @@ void check_partition() {
   const pnpbs::CellGraph graph = pnpbs::cell_graph(cells);
   check_graph(cells, graph);
   check_cut(cells, graph, max);
+  check_cut_with_rare_work(list);
 }
 
 }  // namespace

@@ -17,12 +17,14 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_digest.hpp"
 #include "level/reach.hpp"
+#include "level/rebalance.hpp"
 #include "level/volume/opposite_nodes.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/thin_elements.hpp"
 #include "method/constants.hpp"
 #include "quality/volume/mean_sweep.hpp"
 #include "quality/volume/sliver_repair.hpp"
+#include "quality/volume/small_angles.hpp"
 
 namespace pnpbs {
 
@@ -187,6 +189,31 @@ void repair_slivers(Level<3>& level, double repair_below) {
   level.stars_digest = repair->unknown_uses() == 0 ? digest : 0;
 }
 
+// Distributes the nodes so that all ranks have about as many small angles to repair: in an even
+// cube half of the ranks may have two thirds of them. The stars are those before the last sweep,
+// which is near enough.
+void balance_repairs(Level<3>& level) {
+  if (!level.distributed()) return;
+  const Nodes<3>& nodes = level.nodes;
+  const SmallAngles small(level.settings.sliver_angle);
+  View<std::int64_t> slivers;
+  collective_try(*level.comm, [&] {
+    slivers = make_view<std::int64_t>("pnpbs::balance_repairs", nodes.count);
+    for_each("pnpbs::balance_repairs", nodes.count, [&](std::int64_t i) {
+      slivers(i) = 0;
+      if (!nodes.owned(i)) return;
+      level.stars.for_simplices(i, [&](const VolumeStars::Corners& others) {
+        const auto is_later = [&](std::int32_t j) { return nodes.id(i) < nodes.id(j); };
+        if (!std::ranges::all_of(others, is_later)) return;  // counted at another corner
+        const std::array<Point<3>, 4> x{nodes.position(i), nodes.position(others[0]),
+                                        nodes.position(others[1]), nodes.position(others[2])};
+        if (!small.surely_none(x)) slivers(i) += small.any(x);
+      });
+    });
+  });
+  rebalance_for(level, slivers);
+}
+
 // Repairs the elements that remain thin: removes and inserts nodes, and then repairs only the
 // thinnest elements. Returns the counts of this rank, or nothing if the monitor stops it.
 std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const StopTest& stops) {
@@ -222,6 +249,7 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopT
   sweep_to_means(level, sweeps);
   if (level.settings.repair.rounds == 0) return {};
   if (stops()) return stopped;
+  if (sweeps > 0) balance_repairs(level);
   repair_slivers(level, level.settings.sliver_angle);
   if (sweeps == 0) return {};
   if (stops()) return stopped;

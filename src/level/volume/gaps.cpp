@@ -48,8 +48,7 @@ IncomingNodes<3> in_gaps(Level<3>& level, const IncomingNodes<3>& candidates, do
       const std::int32_t leaf = level.tree->tree().leaf_at(candidate.position);
       return level.tree->owns(leaf) && !is_covered(level, candidate, gap);
     };
-    for (const std::int64_t k :
-         indices_where("pnpbs::in_gaps", std::ssize(candidates), is_in_gap))
+    for (const std::int64_t k : indices_where("pnpbs::in_gaps", std::ssize(candidates), is_in_gap))
       found.push_back(candidates[static_cast<std::size_t>(k)]);
   });
   return found;
