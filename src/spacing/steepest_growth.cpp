@@ -6,43 +6,59 @@
 #include <functional>
 #include <limits>
 
+#include "base/execution.hpp"
+
 namespace pnpbs {
 
 namespace {
 
-template <int Dim>
 // A point at which d is sampled, in a leaf of this rank.
+template <int Dim>
 struct Sample {
   std::int32_t leaf;
   Point<Dim> x;
   bool on_boundary;
 };
 
+// Appends the samples of a leaf.
+template <int Dim>
+void add_samples(const SizedTree<Dim>& map, std::int32_t leaf, std::vector<Sample<Dim>>& samples) {
+  const BackgroundTree<Dim>& tree = map.tree();
+  const Point<Dim> middle = tree.cell_centre(tree.leaf_cell(leaf));
+  const double side = tree.cell_side(tree.leaf_cell(leaf));
+  const auto add_if_inside = [&](const Point<Dim>& x) {
+    if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x, false});
+  };
+  // Samples on the faces ensure that a jump between two leaves shows in one of them.
+  add_if_inside(middle);
+  for (int k = 0; k < Dim; ++k)
+    for (const double off : {-0.5, 0.5}) {
+      Point<Dim> x = middle;
+      x[k] += off * side;
+      add_if_inside(x);
+    }
+  for (const std::int32_t e : map.facets_of_leaf(leaf)) {
+    const Point<Dim>& begin = map.corners(e)[0];
+    if (tree.leaf_at(begin) == leaf) samples.push_back({leaf, begin, true});
+  }
+}
+
+// Returns the samples of the leaves of this rank, in the order of the leaves.
 template <int Dim>
 std::vector<Sample<Dim>> samples_of_own(const SizedTree<Dim>& map,
                                         const std::function<bool(std::int32_t)>& owns_leaf) {
-  const BackgroundTree<Dim>& tree = map.tree();
+  constexpr std::int32_t kChunk = 1024;
+  const std::int32_t leaves = map.tree().leaf_count(), chunks = (leaves + kChunk - 1) / kChunk;
+  std::vector<std::vector<Sample<Dim>>> of_chunk(static_cast<std::size_t>(chunks));
+  for_each("pnpbs::samples_of_own", chunks, [&](std::int64_t c) {
+    const auto first = static_cast<std::int32_t>(c) * kChunk;
+    for (std::int32_t leaf = first; leaf < std::min(first + kChunk, leaves); ++leaf)
+      if (owns_leaf(leaf) && !map.leaf_outside(leaf))
+        add_samples(map, leaf, of_chunk[static_cast<std::size_t>(c)]);
+  });
   std::vector<Sample<Dim>> samples;
-  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    if (!owns_leaf(leaf) || map.leaf_outside(leaf)) continue;
-    const Point<Dim> middle = tree.cell_centre(tree.leaf_cell(leaf));
-    const double side = tree.cell_side(tree.leaf_cell(leaf));
-    const auto add_if_inside = [&](const Point<Dim>& x) {
-      if (map.inside_in_leaf(leaf, x)) samples.push_back({leaf, x, false});
-    };
-    // Samples on the faces ensure that a jump between two leaves shows in one of them.
-    add_if_inside(middle);
-    for (int k = 0; k < Dim; ++k)
-      for (const double off : {-0.5, 0.5}) {
-        Point<Dim> x = middle;
-        x[k] += off * side;
-        add_if_inside(x);
-      }
-    for (const std::int32_t e : map.facets_of_leaf(leaf)) {
-      const Point<Dim>& begin = map.corners(e)[0];
-      if (tree.leaf_at(begin) == leaf) samples.push_back({leaf, begin, true});
-    }
-  }
+  for (const std::vector<Sample<Dim>>& some : of_chunk)
+    samples.insert(samples.end(), some.begin(), some.end());
   return samples;
 }
 
@@ -53,8 +69,8 @@ struct Slope {
   bool in_domain = true;
 };
 
-template <int Dim>
 // Returns the steepest slope in each leaf that this rank owns.
+template <int Dim>
 std::vector<Slope<Dim>> slopes_of_own(const SizedTree<Dim>& map,
                                       const std::function<bool(std::int32_t)>& owns_leaf,
                                       const SpacingEvaluator<Dim>& spacing,

@@ -2,10 +2,14 @@
 #include "tool/expression.hpp"
 
 #include <muParser.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <numbers>
 #include <string_view>
@@ -201,17 +205,35 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   }
 }
 
-// A name in the formula and its values at all points of a batch.
+// A name in the formula and its value at one point.
 struct FieldInFormula {
   Expression::Field field;
   double value = 1;
-  std::vector<double> values{};
 };
+
+int threads_of_openmp() {
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+// Calls work(thread) for 0 <= thread < threads, at the same time.
+template <class Work>
+void on_threads(int threads, const Work& work) {
+#ifdef _OPENMP
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+#endif
+  for (int thread = 0; thread < threads; ++thread) work(thread);
+}
 
 }  // namespace
 
 struct Expression::Parser {
   mu::Parser parser;
+  std::string text;  // of the formula
+  Names names = Names::coordinates;
   std::string option;  // that the formula was given by
   std::vector<NamedGroup> groups;
   std::vector<FieldInFormula> fields;
@@ -220,20 +242,43 @@ struct Expression::Parser {
   double lon = 0, lat = 0;  // at `place`, in degrees
   bool asks_lon = false, asks_lat = false;
   double dist = 1, seglen = 1;  // at `place`
-  bool uses_shape = false;      // or uses fields
+  bool uses_shape = false;
   bool asks_dist = false, asks_seglen = false;
   std::vector<std::string> shape_calls;
   pnpbs_domain domain = nullptr;
   pnpbs_context context = nullptr;
 
-  void find_out(const std::string& text) {
+  // Returns a copy for another thread, with variables of its own.
+  std::unique_ptr<Parser> copy() const {
+    auto copied = std::make_unique<Parser>(*this);
+    copied->parser.ClearVar();
+    copied->define_coordinates();
+    for (FieldInFormula& each : copied->fields)
+      copied->parser.DefineVar(each.field.name, &each.value);
+    for (NamedGroup& group : copied->groups) copied->parser.DefineVar(group.identifier, &group.tag);
+    copied->parser.SetExpr(text);
+    return copied;
+  }
+
+  void define_coordinates() {
+    for (int k = 0; k < dimension; ++k) parser.DefineVar(std::string(1, "xyz"[k]), &place[k]);
+    if (names == Names::shape_on_sphere) {
+      parser.DefineVar("lon", &lon);
+      parser.DefineVar("lat", &lat);
+    }
+    if (names != Names::coordinates) {
+      parser.DefineVar("dist", &dist);
+      parser.DefineVar("seglen", &seglen);
+    }
+  }
+  void find_out() {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
     asks_lon = used.contains("lon");
     asks_lat = used.contains("lat");
     shape_calls = shape_calls_in(text);
-    uses_shape = !shape_calls.empty() || asks_dist || asks_seglen || !fields.empty();
+    uses_shape = !shape_calls.empty() || asks_dist || asks_seglen;
   }
   // Evaluates all calls of shape functions at a point, also those in branches that are not taken
   // there. Errors then appear before the run. The library also computes here what it cannot compute
@@ -277,6 +322,18 @@ struct Expression::Parser {
     if (asks_seglen) seglen = shape_spacing("seglen", 1, 0, 0, 1);
     return parser.Eval();
   }
+  // Evaluates the formula at the points first to last - 1. values_of_fields has those of each field
+  // at all points.
+  void evaluate(std::int64_t first, std::int64_t last, const double* coordinates,
+                const std::vector<std::vector<double>>& values_of_fields, double* values) {
+    for (std::int64_t i = first; i < last; ++i) {
+      if (shape_at_places) shape_at_places->place = i;
+      go_to(coordinates + dimension * i);
+      for (std::size_t k = 0; k < fields.size(); ++k)
+        fields[k].value = values_of_fields[k][static_cast<std::size_t>(i)];
+      values[i] = value();
+    }
+  }
 };
 
 Expression::Expression(const std::string& given, int dimension, const std::string& option,
@@ -291,25 +348,18 @@ Expression::Expression(const std::string& given, int dimension, const std::strin
   mu::Parser& parser = parser_->parser;
   parser_->dimension = dimension;
   parser_->option = option;
+  parser_->text = text;
+  parser_->names = names;
   current_option = &parser_->option;
   try {
     define_names(parser);
-    for (int k = 0; k < dimension; ++k)
-      parser.DefineVar(std::string(1, "xyz"[k]), &parser_->place[k]);
-    if (names == Names::shape_on_sphere) {
-      parser.DefineVar("lon", &parser_->lon);
-      parser.DefineVar("lat", &parser_->lat);
-    }
-    if (names != Names::coordinates) {
-      define_shape_functions(parser);
-      parser.DefineVar("dist", &parser_->dist);
-      parser.DefineVar("seglen", &parser_->seglen);
-    }
+    parser_->define_coordinates();
+    if (names != Names::coordinates) define_shape_functions(parser);
     parser_->define_fields();
     parser_->define_groups();
     parser.SetExpr(text);
     parser.Eval();
-    parser_->find_out(text);
+    parser_->find_out();
   } catch (const mu::Parser::exception_type& error) {
     fail_at(source, static_cast<std::size_t>(std::max(0, error.GetPos())), in_words(error, parser));
   }
@@ -324,7 +374,8 @@ Expression::~Expression() = default;
 void Expression::set_shape_domain(pnpbs_domain domain, pnpbs_context context) {
   parser_->domain = domain;
   parser_->context = context;
-  if (!parser_->uses_shape) return;
+  of_other_threads_.clear();
+  if (!parser_->uses_shape && parser_->fields.empty()) return;
   if (!parser_->groups.empty()) {
     const std::vector<GroupName> names = group_names(domain, context);
     for (NamedGroup& group : parser_->groups)
@@ -337,7 +388,7 @@ void Expression::set_shape_domain(pnpbs_domain domain, pnpbs_context context) {
 }
 
 bool Expression::is_constant() const {
-  return parser_->parser.GetUsedVar().empty() && !parser_->uses_shape;
+  return parser_->parser.GetUsedVar().empty() && !parser_->uses_shape && parser_->fields.empty();
 }
 
 double Expression::at(const double* place) const {
@@ -345,26 +396,36 @@ double Expression::at(const double* place) const {
   return parser_->parser.Eval();
 }
 
-// Evaluates point by point. muParser's bulk mode is no faster on one thread, and starts OpenMP
-// threads that compete with those of the library.
+// Evaluates point by point, because muParser's bulk mode takes no functions that depend on the
+// point. Functions of the shape are computed for the whole batch when the first point needs them,
+// by the library, which has threads of its own.
 void Expression::at(std::int64_t n, const double* coordinates, double* values) const {
-  if (!parser_->uses_shape) {
-    for (std::int64_t i = 0; i < n; ++i) values[i] = at(coordinates + parser_->dimension * i);
-    return;
+  std::vector<std::vector<double>> of_fields;
+  for (const FieldInFormula& each : parser_->fields) {
+    of_fields.emplace_back(static_cast<std::size_t>(n));
+    each.field.values(n, coordinates, of_fields.back().data());
   }
-  for (FieldInFormula& each : parser_->fields) {
-    each.values.resize(static_cast<std::size_t>(n));
-    each.field.values(n, coordinates, each.values.data());
+  if (parser_->uses_shape) {
+    ShapeAtPoints shape{n, coordinates, parser_->domain};
+    const ShapeForBatch telling(shape, parser_->context, parser_->option);
+    return parser_->evaluate(0, n, coordinates, of_fields, values);
   }
-  ShapeAtPoints shape{n, coordinates, parser_->domain};
-  const ShapeForBatch telling(shape, parser_->context, parser_->option);
-  for (std::int64_t i = 0; i < n; ++i) {
-    shape.place = i;
-    parser_->go_to(coordinates + parser_->dimension * i);
-    for (FieldInFormula& each : parser_->fields)
-      each.value = each.values[static_cast<std::size_t>(i)];
-    values[i] = parser_->value();
-  }
+  constexpr std::int64_t few = 1000;  // points, which one thread evaluates as fast as several
+  const std::int64_t threads = std::min<std::int64_t>(threads_of_openmp(), n / few + 1);
+  while (std::ssize(of_other_threads_) < threads - 1) of_other_threads_.push_back(parser_->copy());
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(threads));
+  on_threads(static_cast<int>(threads), [&](int thread) {
+    const auto k = static_cast<std::size_t>(thread);
+    Parser& parser = thread == 0 ? *parser_ : *of_other_threads_[k - 1];
+    try {
+      parser.evaluate(n * thread / threads, n * (thread + 1) / threads, coordinates, of_fields,
+                      values);
+    } catch (...) {
+      failures[k] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 std::int32_t call_expression(std::int64_t n, std::int32_t /*dim*/, const double* coordinates,

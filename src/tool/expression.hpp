@@ -37,7 +37,8 @@ class Expression {
 
   bool is_constant() const;  // neither a coordinate nor the shape occurs in the formula
   double at(const double* place) const;
-  // Evaluates the formula at n points. coordinates: [n][dimension].
+  // Evaluates the formula at n points, on all threads that OpenMP has unless the formula uses the
+  // shape. coordinates: [n][dimension].
   void at(std::int64_t n, const double* coordinates, double* values) const;
 
   void* as_user() const { return const_cast<Expression*>(this); }
@@ -45,6 +46,7 @@ class Expression {
  private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
+  mutable std::vector<std::unique_ptr<Parser>> of_other_threads_;  // copies of it
 };
 
 // A callback for the library; `user` is as_user() of an expression. It fails after a signal.

@@ -47,6 +47,19 @@ class Coverage(GridsTest):
         (self.folder / name).write_text(text)
         return name
 
+    def test_formula_on_threads(self):
+        """Each thread evaluates the formula with variables of its own."""
+        (self.folder / "d.asc").write_text(grid())
+        hashes, nodes = set(), 0
+        for threads in 1, 4:
+            _, report, _ = self.table("--domain", self.square, "--spacing-grid", "wide=d.asc",
+                                      "--spacing", "0.05*wide + 0.01*hypot(x-0.5, y-0.5)",
+                                      "--threads", threads)
+            hashes.add(report["hash"])
+            nodes = report["nodes"]
+        self.assertGreater(nodes, 8000)  # so that batches are divided
+        self.assertEqual(len(hashes), 1)
+
     def test_all_of_the_domain(self):
         _, report, err = self.on_square("--spacing-grid", self.write(grid()))
         self.assertNotIn("covers only", err)
