@@ -129,8 +129,9 @@ typedef struct pnpbs_particles_handle *pnpbs_particles;
 /** Returns the meaning of a status in a few words. Local. Never NULL. */
 PNPBS_API const char *pnpbs_status_string(pnpbs_status status);
 
-/** Returns the message of the last error on `context` or its children; with NULL, of the calling
- *  thread, for failed creates and dead handles. Local. "" if there was none. */
+/** Returns the message of the last error on `context` or its children; with NULL, of the last error
+ *  of any call by the calling thread, also of failed creates and dead handles. Local. "" if there
+ *  was none. */
 PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
 
 /** What else is known of an error, for programs that act on it: the status and this number decide,

@@ -15,7 +15,7 @@
   do {                                                                                 \
     const pnpbs_status pnpbs_status_of_call = (call);                                  \
     PetscCheck(pnpbs_status_of_call >= 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "PNPBS: %s", \
-               pnpbs_status_string(pnpbs_status_of_call));                             \
+               pnpbs_last_error(NULL));                                                \
   } while (0)
 
 /* Copies the connectivity of the mesh as PetscInt, which has 32 or 64 bits. */

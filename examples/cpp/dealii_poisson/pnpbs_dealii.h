@@ -23,10 +23,10 @@
 
 namespace pnpbs_dealii {
 
-/** Throws std::runtime_error with the meaning of the status if it is an error. Positive statuses
- * are accepted. Local. */
+/** Throws std::runtime_error with the message of the last error if the status is one. Positive
+ *  statuses are accepted. Local. */
 inline void check(pnpbs_status status) {
-  if (status < 0) throw std::runtime_error(std::string("PNPBS: ") + pnpbs_status_string(status));
+  if (status < 0) throw std::runtime_error(std::string("PNPBS: ") + pnpbs_last_error(nullptr));
 }
 
 /** A map between the nodes of a placement and the vertices of a triangulation. A
