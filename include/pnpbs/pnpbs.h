@@ -118,7 +118,7 @@ typedef struct pnpbs_voronoi_handle *pnpbs_voronoi;
 typedef struct pnpbs_particles_handle *pnpbs_particles;
 
 /* After a status below 0 everything is as it was before the call, on all ranks: nodes, owners,
- * ghosts, lists, statistics and warnings, except the statistics seconds.*, memory.* and
+ * ghosts, lists, statistics and warnings, except the statistics seconds.*, waiting.*, memory.* and
  * redundancy.*, which count what was spent. A call that is repeated has the result that it would
  * have had without the error. For this, calls that move nodes keep a copy of the nodes until they
  * end: about 100 bytes for each node and ghost of the rank in space, 80 in the plane. Where there

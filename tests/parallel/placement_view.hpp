@@ -46,7 +46,8 @@ inline void add_statistics(pnpbs_placement placement, PlacementView& view) {
     const char *name = "", *type = "", *text = "";
     pnpbs_statistic_info(k, &name, &type, nullptr);
     const std::string_view key = name;
-    if (key.starts_with("seconds.") || key.starts_with("memory.") || key.starts_with("redundancy."))
+    if (key.starts_with("seconds.") || key.starts_with("waiting.") || key.starts_with("memory.") ||
+        key.starts_with("redundancy."))
       continue;
     std::int64_t integer = 0;
     double real = 0;
