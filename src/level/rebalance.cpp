@@ -5,6 +5,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/partitioning.hpp"
 #include "level/reach.hpp"
+#include "partition/partition.hpp"
 
 namespace pnpbs {
 
@@ -13,6 +14,8 @@ namespace {
 // Rare work that one rank must have more than the mean of all, per node of a rank, for a
 // repartition to pay.
 constexpr double kLeastExcess = 0.005;
+// Share of the imbalance of rare work that may remain after a repartition.
+constexpr double kMuchLess = 0.5;
 
 // Sums the work of the owned nodes by leaf.
 template <int Dim, class WorkOf>
@@ -77,16 +80,26 @@ void rebalance_for(Level<Dim>& level, const View<std::int64_t>& rare_work) {
       static_cast<std::int64_t>(sum_of("pnpbs::rebalance_for", nodes.count, [&](std::int64_t i) {
         return nodes.owned(i) ? static_cast<std::uint64_t>(rare_work(i)) : 0;
       }));
-  const double excess = level.comm->allreduce_max(static_cast<double>(own)) *
-                        (1 - 1 / imbalance_over(*level.comm, own));
-  const double mean = static_cast<double>(level.comm->allreduce_sum(
-                          static_cast<std::uint64_t>(level.owned_count()))) /
-                      level.comm->size();
-  if (excess < kLeastExcess * mean) return;
-  take_stars(level);
-  level.adopt_partition(
+  const double present = imbalance_over(*level.comm, own);
+  const double largest = level.comm->allreduce_max(static_cast<double>(own));
+  const std::uint64_t all_nodes =
+      level.comm->allreduce_sum(static_cast<std::uint64_t>(level.owned_count()));
+  const double excess = largest * (1 - 1 / present),
+               mean_nodes = static_cast<double>(all_nodes) / level.comm->size();
+  if (present <= level.settings.rebalance_above || excess < kLeastExcess * mean_nodes) return;
+  Distribution<Dim> next =
       redistributed(*level.tree, level.settings, counted_work(level),
-                    work_of_leaves(level, [&](std::int64_t i) { return rare_work(i); })));
+                    work_of_leaves(level, [&](std::int64_t i) { return rare_work(i); }));
+  // METIS may fail or not balance few heavy cells. All ranks have the same cells and owners.
+  const PartitionCells<Dim>& cells = next.cells();
+  const auto imbalance_after = [&](const std::vector<std::int64_t>& work) {
+    return imbalance(next.owners_of_cells(), work, level.comm->size());
+  };
+  if (imbalance_after(cells.rare_work()) - 1 > kMuchLess * (present - 1) ||
+      imbalance_after(cells.work()) > level.settings.rebalance_above)
+    return;
+  take_stars(level);
+  level.adopt_partition(std::move(next));
   migrate(level);
   ++level.rebalances;
 }

@@ -56,6 +56,7 @@ class Distribution {
   Distribution without_leaves() const { return Distribution(cells_, owner_, rank_); }
 
   const PartitionCells<Dim>& cells() const { return cells_; }
+  const std::vector<std::int32_t>& owners_of_cells() const { return owner_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
   // Returns whether the cell lies outside the domain. No rank holds or needs the contents of

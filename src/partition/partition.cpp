@@ -45,8 +45,8 @@ bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector
   idx_t options[METIS_NOPTIONS];
   metis().set_default_options(options);
   options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
-  // Allows an imbalance of 1.015. Rare work is in few cells, which may be heavy.
-  real_t imbalance[] = {1.015F, 1.05F};
+  // Allows an imbalance of 1.015, or of 1.03 with rare work, because few cells have some of it.
+  options[METIS_OPTION_UFACTOR] = constraints == 1 ? 15 : 30;
   // With few parts, recursive bisection cuts a fifth less than k-way partitioning, and the best of
   // several tries even less. Its cost grows with the number of parts.
   const bool bisect = ranks <= kMaxBisected;
@@ -56,7 +56,7 @@ bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector
                      weight = as_metis(graph.weight), cut_weight = as_metis(graph.cut_weight);
   return (bisect ? metis().part_graph_recursive : metis().part_graph_kway)(
              &vertices, &constraints, offset.data(), neighbour.data(), weight.data(), nullptr,
-             cut_weight.data(), &parts, nullptr, imbalance, options, &cut, part.data()) == METIS_OK;
+             cut_weight.data(), &parts, nullptr, nullptr, options, &cut, part.data()) == METIS_OK;
 }
 
 #endif
@@ -154,6 +154,12 @@ bool is_linked(double face, double smaller_side) {
   return Dim == 2 || face > 0.5 * std::pow(smaller_side, Dim - 1);
 }
 
+// Returns what a sum of weights must be divided by to fit into the integers of METIS.
+std::int64_t scale_of(const std::vector<std::int64_t>& weights) {
+  return std::max<std::int64_t>(
+      1, std::accumulate(weights.begin(), weights.end(), std::int64_t{0}) / 1000000000);
+}
+
 // Extent of a cell and density of its work, for the links to its neighbours.
 template <int Dim>
 struct CellExtent {
@@ -165,16 +171,6 @@ struct CellExtent {
         side(cells.tree().cell_side(cells.tree().leaf_cell(c))),
         density(static_cast<double>(cells.work(c)) / std::pow(side, Dim)) {}
 };
-
-}  // namespace
-
-namespace {
-
-// Returns what a sum of weights must be divided by to fit into the integers of METIS.
-std::int64_t scale_of(const std::vector<std::int64_t>& weights) {
-  return std::max<std::int64_t>(
-      1, std::accumulate(weights.begin(), weights.end(), std::int64_t{0}) / 1000000000);
-}
 
 }  // namespace
 

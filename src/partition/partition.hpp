@@ -13,10 +13,9 @@ namespace pnpbs {
 std::vector<std::int32_t> cut_morton_order(const std::vector<std::int64_t>& work, int ranks);
 
 // Returns the owner of each cell by METIS, which cuts few interactions, and balances the work and,
-// if cells have any, the rare work. Cells without work keep
-// their owner of the Morton order. Parts may be empty if there are more ranks than cells with work.
-// Returns the Morton order's partition if METIS fails or balances much worse. The partition depends
-// on `seed`; the nodes do not.
+// if cells have any, the rare work. Cells without work keep their owner of the Morton order. Parts
+// may be empty if there are more ranks than cells with work. Returns the Morton order's partition
+// if METIS fails or balances much worse. The partition depends on `seed`; the nodes do not.
 template <int Dim>
 std::vector<std::int32_t> cut_by_metis(const PartitionCells<Dim>& cells, int ranks,
                                        std::int64_t seed);
@@ -37,7 +36,7 @@ double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::
                  int ranks);
 
 // Graph for METIS in compressed rows: a vertex for each cell with work and an edge for each pair of
-// touching cells. All weights are positive, as METIS requires.
+// touching cells. All weights are positive, as METIS requires, except those of rare work.
 struct CellGraph {
   std::vector<std::int32_t> cell;  // cell of each vertex
   std::vector<std::int32_t> offset{0}, neighbour, cut_weight;

@@ -210,11 +210,12 @@ const std::vector<StatisticRow>& statistic_table() {
       real("seconds.other", seconds<Phase::other>, "everything else"),
       real(
           "seconds.total", [](P p) { return p.timers().total(); },
-          "from domain and spacing given to nodes available, without files: the sum of the phases "
-          "above"),
-      real("waiting.boundary", waiting<Phase::boundary>,
-           "seconds of this phase that this rank spent in communication: waiting for other ranks, "
-           "and the transfer itself; likewise the next ones"),
+          "from domain and spacing given to nodes available, and what was derived from them on "
+          "request since, without files: the sum of the phases above"),
+      real(
+          "waiting.boundary", waiting<Phase::boundary>,
+          "seconds of this phase that this rank spent in communication, waiting for other ranks or "
+          "transferring data; the next ones are those of the other phases"),
       real("waiting.tree", waiting<Phase::tree>, "the same of the tree"),
       real("waiting.partition", waiting<Phase::partition>, "the same of the partition"),
       real("waiting.fill", waiting<Phase::fill>, "the same of the initial inner nodes"),

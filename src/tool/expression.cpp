@@ -327,7 +327,7 @@ struct Expression::Parser {
   void evaluate(std::int64_t first, std::int64_t last, const double* coordinates,
                 const std::vector<std::vector<double>>& values_of_fields, double* values) {
     for (std::int64_t i = first; i < last; ++i) {
-      if (shape_at_places) shape_at_places->place = i;
+      if (uses_shape) shape_at_places->place = i;
       go_to(coordinates + dimension * i);
       for (std::size_t k = 0; k < fields.size(); ++k)
         fields[k].value = values_of_fields[k][static_cast<std::size_t>(i)];
@@ -411,7 +411,8 @@ void Expression::at(std::int64_t n, const double* coordinates, double* values) c
     return parser_->evaluate(0, n, coordinates, of_fields, values);
   }
   constexpr std::int64_t few = 1000;  // points, which one thread evaluates as fast as several
-  const std::int64_t threads = std::min<std::int64_t>(threads_of_openmp(), n / few + 1);
+  const std::int64_t threads =
+      uses_threads_ ? std::min<std::int64_t>(threads_of_openmp(), n / few + 1) : 1;
   while (std::ssize(of_other_threads_) < threads - 1) of_other_threads_.push_back(parser_->copy());
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(threads));
   on_threads(static_cast<int>(threads), [&](int thread) {

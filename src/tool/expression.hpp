@@ -37,8 +37,11 @@ class Expression {
 
   bool is_constant() const;  // neither a coordinate nor the shape occurs in the formula
   double at(const double* place) const;
-  // Evaluates the formula at n points, on all threads that OpenMP has unless the formula uses the
-  // shape. coordinates: [n][dimension].
+  // Evaluates batches on the threads of the library from now on. A placement must exist, because it
+  // is what starts them.
+  void use_threads() { uses_threads_ = true; }
+  // Evaluates the formula at n points, on one thread if it uses the shape. coordinates:
+  // [n][dimension].
   void at(std::int64_t n, const double* coordinates, double* values) const;
 
   void* as_user() const { return const_cast<Expression*>(this); }
@@ -46,6 +49,7 @@ class Expression {
  private:
   struct Parser;
   std::unique_ptr<Parser> parser_;
+  bool uses_threads_ = false;
   mutable std::vector<std::unique_ptr<Parser>> of_other_threads_;  // copies of it
 };
 

@@ -134,6 +134,7 @@ void Spacing::set_spacing(pnpbs_placement placement, pnpbs_domain domain, pnpbs_
     return;
   }
   if (expression_) ranks.collective_try([&] { expression_->set_shape_domain(domain, context); });
+  if (expression_) expression_->use_threads();
   const bool is_constant = expression_ && expression_->is_constant();
   if (is_constant) {
     constexpr double anywhere[3] = {0, 0, 0};

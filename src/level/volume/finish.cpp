@@ -190,8 +190,8 @@ void repair_slivers(Level<3>& level, double repair_below) {
 }
 
 // Distributes the nodes so that all ranks have about as many small angles to repair: in an even
-// cube half of the ranks may have two thirds of them. The stars are those before the last sweep,
-// which is near enough.
+// cube half of the ranks may have two thirds of them. The stars are those from before the sweeps,
+// and ghosts lag behind by a sweep, which does not matter for an estimate.
 void balance_repairs(Level<3>& level) {
   if (!level.distributed()) return;
   const Nodes<3>& nodes = level.nodes;
