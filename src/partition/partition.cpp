@@ -39,9 +39,9 @@ std::vector<idx_t> as_metis(const std::vector<std::int32_t>& values) {
 constexpr int kMaxBisected = 32, kMaxTried = 8;  // numbers of ranks
 
 bool cut_graph(const CellGraph& graph, int ranks, std::int64_t seed, std::vector<idx_t>& part) {
-  idx_t vertices = static_cast<idx_t>(graph.cell.size()), constraints = graph.weights_of_vertex,
-        parts = ranks, cut = 0;
+  idx_t vertices = static_cast<idx_t>(graph.cell.size()), parts = ranks, cut = 0;
   if (vertices < 4 * parts) return false;
+  idx_t constraints = static_cast<idx_t>(graph.weight.size()) / vertices;
   idx_t options[METIS_NOPTIONS];
   metis().set_default_options(options);
   options[METIS_OPTION_SEED] = static_cast<idx_t>(seed);
@@ -190,7 +190,6 @@ CellGraph cell_graph(const PartitionCells<Dim>& cells) {
   const std::vector<std::int64_t>& rare = cells.rare_work();
   const std::int64_t scale = scale_of(cells.work()), rare_scale = scale_of(rare);
   const bool has_rare = std::ranges::any_of(rare, [](std::int64_t work) { return work > 0; });
-  if (has_rare) result.weights_of_vertex = 2;
   for (std::int32_t c : result.cell) {
     const CellExtent<Dim> own(cells, c);
     touching.for_neighbours(c, [&](std::int32_t other) {

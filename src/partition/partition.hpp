@@ -40,9 +40,7 @@ double imbalance(const std::vector<std::int32_t>& owner, const std::vector<std::
 struct CellGraph {
   std::vector<std::int32_t> cell;  // cell of each vertex
   std::vector<std::int32_t> offset{0}, neighbour, cut_weight;
-  // Weights of the vertices: one number per vertex, or two if cells have rare work.
-  std::vector<std::int32_t> weight;
-  int weights_of_vertex = 1;
+  std::vector<std::int32_t> weight;  // one for each vertex, or two if cells have rare work
 };
 
 // Returns the graph of `cells`. In the plane, cells that share only a corner are linked with the
