@@ -262,15 +262,16 @@ Colour shaded(const Colour& colour, double shade, double light) {
 
 class BodyPainter {
  public:
-  BodyPainter(const Body& body, const CutPlane& plane, ElementColour colour)
+  BodyPainter(const Body& body, const CutPlane& plane, const PictureStyle& style)
       : body_(body), plane_(plane), view_(plane) {
-    if (colour != ElementColour::none && !body.is_surface_mesh()) values_.emplace(body, colour);
+    if (style.colour != ElementColour::none && !body.is_surface_mesh())
+      values_.emplace(body, style.colour);
     for (const VisibleFace& face : visible_faces(body, plane)) add(face);
     sort();
     std::vector<double> shown;
     for (const PaintedFace& face : faces_)
       for (std::size_t k = 0; k < 3; ++k) shown.insert(shown.end(), {face.x[k], face.y[k]});
-    frame_ = frame_around(bounds_of({shown}), body.spacing, body_picture_size);
+    frame_ = frame_around(bounds_of({shown}), body.spacing, body_picture_size, style.unit);
   }
 
   const PictureFrame& frame() const { return frame_; }
@@ -432,8 +433,8 @@ std::string BodyPainter::description() const {
 
 }  // namespace
 
-Drawing drawing_of(const Body& body, const CutPlane& plane, ElementColour colour) {
-  const auto painter = std::make_shared<const BodyPainter>(body, plane, colour);
+Drawing drawing_of(const Body& body, const CutPlane& plane, const PictureStyle& style) {
+  const auto painter = std::make_shared<const BodyPainter>(body, plane, style);
   const PictureFrame& frame = painter->frame();
   return {frame.width, frame.height, painter->description(),
           [painter](cairo_t* cairo) { painter->draw(cairo); }};

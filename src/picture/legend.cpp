@@ -37,7 +37,9 @@ void draw_scale_bar(cairo_t* cairo, const PictureFrame& frame, double left, doub
   set_colour(cairo, ink);
   cairo_set_line_width(cairo, 1.2 * frame.line_width);
   cairo_stroke(cairo);
-  draw_text(cairo, 0.5 * (left + right), base - 0.6 * frame.font_size, short_number(length), 0.5);
+  const std::string unit = frame.unit.empty() ? "" : " " + frame.unit;
+  draw_text(cairo, 0.5 * (left + right), base - 0.6 * frame.font_size, short_number(length) + unit,
+            0.5);
 }
 
 }  // namespace

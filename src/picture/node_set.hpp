@@ -16,6 +16,7 @@ struct NodeSet {
   std::vector<double> spacing;                         // [nodes], d at the node
   std::vector<std::array<std::int64_t, 3>> triangles;  // corners, as indices of nodes; may be empty
   std::vector<double> outline;  // [segments][2][2], coordinates of the curves of the domain
+  std::vector<bool> open;       // [segments], whether it is part of an open boundary
 
   std::size_t size() const { return ids.size(); }
 };

@@ -22,6 +22,7 @@ constexpr Colour colour(unsigned hexadecimal) {
 constexpr Colour paper = colour(0xffffff);
 constexpr Colour ink = colour(0x1f2a37);  // text and boundary lines
 constexpr Colour boundary_node = colour(0xb5482f);
+constexpr Colour open_boundary = colour(0x1f8fd6);
 constexpr Colour triangle_edge = colour(0xbcc6d0);
 
 // Returns the colour at a fraction, 0 to 1, of the palette `stops` by linear interpolation.

@@ -114,6 +114,7 @@ class Painter {
   void triangles(const Colour& colour, double opacity);
   void bubbles();
   void outline();
+  void outline(bool open, const Colour& colour, double line_width);
   void discs(double inner_over_spacing, double boundary_over_spacing);
   void legend();
   void legend(const TriangleValues& values);
@@ -181,13 +182,20 @@ void Painter::bubbles() {
 }
 
 void Painter::outline() {
-  for (std::size_t s = 0; s + 3 < nodes_.outline.size(); s += 4) {
-    const double* ends = &nodes_.outline[s];
+  outline(false, ink, frame_.line_width);
+  outline(true, open_boundary, 2.5 * frame_.line_width);
+}
+
+// Draws the open boundary or everything else.
+void Painter::outline(bool open, const Colour& colour, double line_width) {
+  for (std::size_t s = 0; s < nodes_.open.size(); ++s) {
+    if (nodes_.open[s] != open) continue;
+    const double* ends = &nodes_.outline[4 * s];
     cairo_move_to(cairo_, frame_.x(ends[0]), frame_.y(ends[1]));
     cairo_line_to(cairo_, frame_.x(ends[2]), frame_.y(ends[3]));
   }
-  set_colour(cairo_, ink);
-  cairo_set_line_width(cairo_, frame_.line_width);
+  set_colour(cairo_, colour);
+  cairo_set_line_width(cairo_, line_width);
   cairo_stroke(cairo_);
 }
 
@@ -263,7 +271,9 @@ void Painter::legend() {
   } else {
     colour_bar(middle, base, end - middle);
   }
-  key(end + frame_.font_size, base, "boundary", boundary_node);
+  end = key(end + frame_.font_size, base, "boundary", boundary_node);
+  if (std::ranges::find(nodes_.open, true) != nodes_.open.end())
+    key(end + frame_.font_size, base, "open", open_boundary);
   draw_node_count(cairo_, frame_, base, nodes_.size());
 }
 
@@ -309,7 +319,7 @@ std::string description_of(const NodeSet& nodes, const PictureStyle& style) {
 
 Drawing drawing_of(const NodeSet& nodes, const PictureStyle& style) {
   const PictureFrame frame =
-      frame_around(bounds_of({nodes.outline, nodes.xy}), nodes.spacing, picture_size);
+      frame_around(bounds_of({nodes.outline, nodes.xy}), nodes.spacing, picture_size, style.unit);
   return {frame.width, frame.height, description_of(nodes, style),
           [&nodes, frame, style](cairo_t* cairo) { draw(cairo, nodes, frame, style); }};
 }

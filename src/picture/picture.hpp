@@ -2,6 +2,8 @@
 // Drawings of plane node sets, spheres and bodies.
 #pragma once
 
+#include <string>
+
 #include "base/types.hpp"
 #include "picture/body.hpp"
 #include "picture/cut_plane.hpp"
@@ -19,9 +21,10 @@ struct SphereView {
 };
 
 struct PictureStyle {
-  bool bubbles = false;  // draw the bubbles, circles of diameter d
-  // If not `none`, draw coloured triangles instead of discs.
+  bool bubbles = false;  // draw the bubbles, circles of diameter d; in the plane only
+  // The figure that colours the elements. In the plane, discs are drawn if it is `none`.
   ElementColour colour = ElementColour::none;
+  std::string unit{};  // of length, for the scale bar; may be empty
 };
 
 // Returns a picture of the nodes. `nodes` must outlive the drawing.
@@ -29,10 +32,10 @@ Drawing drawing_of(const NodeSet& nodes, const PictureStyle& style);
 
 // Returns a picture of the triangles of a sphere, which are the boundary of `triangles`.
 // `triangles` must outlive the drawing.
-Drawing drawing_of(const Body& triangles, const SphereView& view, ElementColour colour);
+Drawing drawing_of(const Body& triangles, const SphereView& view, const PictureStyle& style);
 
 // Returns a picture of a body that is cut open. Whole tetrahedra in front of the plane are removed;
 // those behind it are coloured. `body` must outlive the drawing.
-Drawing drawing_of(const Body& body, const CutPlane& plane, ElementColour colour);
+Drawing drawing_of(const Body& body, const CutPlane& plane, const PictureStyle& style);
 
 }  // namespace pnpbs::picture

@@ -32,13 +32,14 @@ Box<2> bounds_of(std::initializer_list<std::span<const double>> points) {
 }
 
 PictureFrame frame_around(const Box<2>& bounds, const std::vector<double>& spacing,
-                          const PictureSize& size) {
+                          const PictureSize& size, const std::string& unit) {
   const double wide = bounds.high[0] - bounds.low[0], high = bounds.high[1] - bounds.low[1];
   double longer = std::max(wide, high);
   if (!(longer > 0)) longer = 1;  // a single point, or none
 
   PictureFrame frame{};
   frame.typical_spacing = median(spacing);
+  frame.unit = unit;
   const double requested = frame.typical_spacing > 0 ? longer / frame.typical_spacing : 0;
   const double side = std::clamp(requested * size.target_spacing, size.min_side, size.max_side);
   frame.pixels_per_unit = side / longer;

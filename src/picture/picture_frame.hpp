@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/types.hpp"
@@ -21,6 +22,7 @@ struct PictureFrame {
   double line_width;
   double font_size;
   double typical_spacing;  // median of d, in units of the domain
+  std::string unit;        // of lengths of the domain; may be empty
 
   double low_x, high_y;  // upper left corner of the domain, in units of the domain
   double left, top;      // position of this corner in the picture
@@ -44,6 +46,6 @@ Box<2> bounds_of(std::initializer_list<std::span<const double>> points);
 
 // Returns a frame around `bounds`, scaled so that the median of `spacing` has the requested size.
 PictureFrame frame_around(const Box<2>& bounds, const std::vector<double>& spacing,
-                          const PictureSize& size);
+                          const PictureSize& size, const std::string& unit);
 
 }  // namespace pnpbs::picture

@@ -27,17 +27,18 @@ using Shape = std::vector<Point<2>>;
 
 class SpherePainter {
  public:
-  SpherePainter(const Body& body, const SphereView& view, ElementColour by)
-      : body_(body), view_(view), by_(by) {
+  SpherePainter(const Body& body, const SphereView& view, const PictureStyle& style)
+      : body_(body), view_(view), by_(style.colour) {
     set_directions();
-    if (by != ElementColour::none)
-      scale_ = scale_for(by, {body.boundary.size(), [this](std::size_t t) { return value(t); }});
+    if (by_ != ElementColour::none)
+      scale_ = scale_for(by_, {body.boundary.size(), [this](std::size_t t) { return value(t); }});
     const double size = view.as_map ? 180 : view.radius;
     std::vector<double> spacing = body.spacing;
     if (view.as_map)
       for (double& d : spacing) d /= view.radius * kDegree;
     const double high = view.as_map ? 90 : size;
-    frame_ = frame_around({{-size, -high}, {size, high}}, spacing, sphere_picture_size);
+    frame_ = frame_around({{-size, -high}, {size, high}}, spacing, sphere_picture_size,
+                          view.as_map ? "degrees" : style.unit);
   }
 
   const PictureFrame& frame() const { return frame_; }
@@ -54,6 +55,7 @@ class SpherePainter {
     if (view_.as_map) clip(cairo);
     for (std::size_t t = 0; t < body_.boundary.size(); ++t)
       view_.as_map ? draw_on_map(cairo, t) : draw_seen(cairo, t);
+    draw_graticule(cairo);
     cairo_restore(cairo);
     draw_legend(cairo);
   }
@@ -179,6 +181,38 @@ class SpherePainter {
     cairo_stroke(cairo);
   }
 
+  // Draws the meridians and parallels at multiples of 30 degrees over the triangles.
+  void draw_graticule(cairo_t* cairo) const {
+    constexpr int between = 30;
+    for (int lon = -180; lon < 180; lon += between) {
+      Shape meridian;
+      for (int lat = -90; lat <= 90; ++lat) meridian.push_back({1. * lon, 1. * lat});
+      add_line(cairo, meridian);
+    }
+    for (int lat = -90 + between; lat < 90; lat += between) {
+      Shape parallel;
+      for (int lon = -180; lon <= 180; ++lon) parallel.push_back({1. * lon, 1. * lat});
+      add_line(cairo, parallel);
+    }
+    constexpr double opacity = 0.35;
+    set_colour(cairo, ink, opacity);
+    cairo_set_line_width(cairo, frame_.line_width);
+    cairo_stroke(cairo);
+  }
+
+  // Adds the visible parts of a line through points in degrees to the path.
+  void add_line(cairo_t* cairo, const Shape& degrees) const {
+    bool was_seen = false;
+    for (const Point<2>& at : degrees) {
+      const Point<3> x = shifted({}, view_.radius, direction_at(at));
+      const bool seen = view_.as_map || dot(x, toward_) > 0;
+      const Point<2> shown = view_.as_map ? at : Point<2>{dot(x, right_), dot(x, up_)};
+      if (seen)
+        (was_seen ? cairo_line_to : cairo_move_to)(cairo, frame_.x(shown[0]), frame_.y(shown[1]));
+      was_seen = seen;
+    }
+  }
+
   void draw_legend(cairo_t* cairo) const {
     const double font_size = font_beside_colour_bar(frame_);
     const double base = begin_legend(cairo, frame_, font_size);
@@ -186,8 +220,6 @@ class SpherePainter {
       draw_colour_bar(cairo, scale_->colours, title(),
                       {0.37 * frame_.width, base, 0.34 * frame_.width, font_size});
     draw_node_count(cairo, frame_, base, body_.size());
-    if (view_.as_map)
-      draw_text(cairo, frame_.width - frame_.margin, base - 1.3 * font_size, "degrees", 1);
   }
 
   std::string title() const {
@@ -204,8 +236,8 @@ class SpherePainter {
 
 }  // namespace
 
-Drawing drawing_of(const Body& triangles, const SphereView& view, ElementColour colour) {
-  const auto painter = std::make_shared<const SpherePainter>(triangles, view, colour);
+Drawing drawing_of(const Body& triangles, const SphereView& view, const PictureStyle& style) {
+  const auto painter = std::make_shared<const SpherePainter>(triangles, view, style);
   const PictureFrame& frame = painter->frame();
   return {frame.width, frame.height, painter->description(),
           [painter](cairo_t* cairo) { painter->draw(cairo); }};

@@ -43,7 +43,7 @@ void require_depth_rule_that_fits(const Arguments& arguments) {
     refuse(option + " and a --spacing that is no formula exclude each other");
   if (request.rule.wave == 0 && arguments.spacing.empty() && !arguments.max_spacing)
     refuse(option + ": with wave=0 nothing bounds d where the bottom is flat: give --max-spacing");
-  if (arguments.sphere) metres_per_unit(request, "");
+  if (arguments.sphere) metres_per_unit(request, arguments.unit);
 }
 
 void require_what_spheres_have(const Arguments& arguments) {
@@ -55,7 +55,6 @@ void require_what_spheres_have(const Arguments& arguments) {
     if (is_set) refuse("--sphere and " + option + " exclude each other");
   };
   refuse_if(!arguments.projection.empty(), "--projection");
-  refuse_if(!arguments.unit.empty(), "--unit");
   refuse_if(arguments.surfaces_only, "--surfaces-only");
   refuse_if(arguments.at_centres, "--nodes-at");
   refuse_if(arguments.repair || arguments.repair_if_needed, "--repair");

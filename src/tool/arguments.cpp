@@ -299,7 +299,9 @@ void add_geo(CLI::App& app, Arguments& arguments) {
                  "none")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--unit", arguments.unit, "unit of that projection: m or km; default: its own")
+  app.add_option("--unit", arguments.unit,
+                 "unit of length of x, y and d, for the scale bar of pictures and\n"
+                 "for --depth-rule; of that projection: m or km; default: its own")
       ->type_name("UNIT")
       ->group(group);
   app.add_option("--layer", arguments.layer, "the layer to read, for files with several")

@@ -92,7 +92,7 @@ double metres_per_unit(const DepthRequest& request, const std::string& unit) {
   constexpr double rounding = 1e-9;
   if (request.metres && known > 0 && std::fabs(*request.metres - known) > rounding * known)
     throw BadInput(option + ": metres=" + number_text(*request.metres) +
-                   ", but the unit of length of the domain is the " + unit);
+                   ", but the unit of length of the domain is " + unit);
   return request.metres.value_or(known);
 }
 

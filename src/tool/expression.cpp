@@ -11,7 +11,9 @@
 #include <cmath>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -101,11 +103,16 @@ double distance_to(double tag) {
   });
 }
 
-double dist_of(double tag) {
-  if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
-    throw BadInput(*current_option + ": dist(" + short_number(tag) +
-                   "): expected a tag, an integer other than 0");
-  return distance_to(tag);
+// Returns the least of the distances to the boundaries with these tags.
+double dist_of(const double* tags, int count) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double tag : std::span(tags, static_cast<std::size_t>(count))) {
+    if (!(tag == std::floor(tag)) || tag == 0 || std::fabs(tag) > 2e9)
+      throw BadInput(*current_option + ": dist(" + short_number(tag) +
+                     "): expected a tag, an integer other than 0");
+    least = std::min(least, distance_to(tag));
+  }
+  return least;
 }
 
 double shape_spacing(const char* name, double number, double per_turn, double across,
@@ -450,8 +457,9 @@ std::string expression_help() {
          "comparisons, a ? b : c, and the "
          "functions " +
          list +
-         "; in --spacing and --field also dist, the distance to the boundary, dist(TAG) and "
-         "dist(NAME), to the curves, surfaces and nodes with the tag or the group's name, the "
+         "; in --spacing and --field also dist, the distance to the boundary, dist(TAG), "
+         "dist(NAME) and dist(NAME, NAME, ...), to the curves, surfaces and nodes with the tag or "
+         "the name of one of the groups, the "
          "names of --spacing-grid and, with _slope after them, the slopes of the grids, by_depth "
          "of --depth-rule, "
          "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "

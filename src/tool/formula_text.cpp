@@ -106,33 +106,54 @@ std::vector<std::string> calls_of(const std::string& function, const std::string
   return calls;
 }
 
+namespace {
+
+// Returns the end of the argument of dist(...) that begins at `begin`: a quoted name, or letters,
+// digits and underscores.
+std::size_t end_of_argument(const std::string& text, std::size_t begin) {
+  const char first = text[begin];
+  std::size_t end = begin + 1;
+  if (first == '\'' || first == '"') {
+    end = text.find(first, end);
+    return end == std::string::npos ? text.size() : end + 1;
+  }
+  while (end < text.size() && in_name(text[end])) ++end;
+  return end;
+}
+
+// Returns the group that text[begin, end) names, and replaces quotes and characters that are not
+// part of names in the text by underscores.
+NamedGroup name_group(std::string& text, std::size_t begin, std::size_t end) {
+  std::string name = text.substr(begin, end - begin);
+  if (!in_name(name[0])) name = name.substr(1, name.size() - 2);
+  std::replace_if(
+      text.begin() + static_cast<std::ptrdiff_t>(begin),
+      text.begin() + static_cast<std::ptrdiff_t>(end), [](char c) { return !in_name(c); }, '_');
+  return {name, text.substr(begin, end - begin)};
+}
+
+}  // namespace
+
 std::vector<NamedGroup> groups_in(std::string& text) {
   constexpr std::string_view name = "dist";
   std::vector<NamedGroup> groups;
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-    const std::size_t open = text.find_first_not_of(" \t", at + name.size());
-    if (open == std::string::npos || text[open] != '(' || (at > 0 && in_name(text[at - 1])))
+    std::size_t before = text.find_first_not_of(" \t", at + name.size());
+    if (before == std::string::npos || text[before] != '(' || (at > 0 && in_name(text[at - 1])))
       continue;
-    const std::size_t begin = text.find_first_not_of(" \t", open + 1);
-    if (begin == std::string::npos) break;
-    const char quote = text[begin] == '\'' || text[begin] == '"' ? text[begin] : '\0';
-    std::size_t end = begin + 1;
-    if (quote)
-      end = text.find(quote, end) == std::string::npos ? text.size() : text.find(quote, end) + 1;
-    else
-      while (end < text.size() && in_name(text[end])) ++end;
-    const std::size_t close = text.find_first_not_of(" \t", end);
-    if (close == std::string::npos || text[close] != ')') continue;
-    if (!quote && (std::isdigit(static_cast<unsigned char>(text[begin])) || !in_name(text[begin])))
-      continue;
-    std::string group = text.substr(begin, end - begin);
-    if (quote) {
-      std::replace_if(
-          text.begin() + static_cast<std::ptrdiff_t>(begin),
-          text.begin() + static_cast<std::ptrdiff_t>(end), [](char c) { return !in_name(c); }, '_');
-      group = group.substr(1, group.size() - 2);
+    // `before` is the parenthesis or comma before an argument.
+    while (before < text.size() && (text[before] == '(' || text[before] == ',')) {
+      const std::size_t begin = text.find_first_not_of(" \t", before + 1);
+      if (begin == std::string::npos) break;
+      const std::size_t end = end_of_argument(text, begin);
+      const std::size_t after = std::min(text.find_first_not_of(" \t", end), text.size());
+      if (after == text.size() || (text[after] != ')' && text[after] != ',')) break;
+      const bool quoted = text[begin] == '\'' || text[begin] == '"';
+      const bool is_number = std::isdigit(static_cast<unsigned char>(text[begin])) != 0;
+      if (quoted || (in_name(text[begin]) && !is_number))
+        groups.push_back(name_group(text, begin, end));
+      before = after;
     }
-    groups.push_back({group, text.substr(begin, end - begin)});
   }
   return groups;
 }

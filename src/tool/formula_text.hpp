@@ -29,14 +29,15 @@ bool mentions(const std::string& formula, const std::string& name);
 // Returns all calls of a function with their arguments, such as "gap(3)".
 std::vector<std::string> calls_of(const std::string& function, const std::string& formula);
 
-// A group in dist(NAME), and its tag once the domain exists.
+// A group in dist(NAME, ...), and its tag once the domain exists.
 struct NamedGroup {
   std::string name, identifier;  // the identifier replaces the name in the formula
   double tag = 1;
 };
 
-// Finds the groups in dist(NAME) and dist('NAME'). Quotes, and characters between them that are not
-// letters, become underscores in the text, so that positions in it do not change.
+// Finds the groups in dist(NAME), dist('NAME') and dist(NAME, TAG, ...). Quotes, and characters
+// between them that are not letters, become underscores in the text, so that positions in it do not
+// change.
 std::vector<NamedGroup> groups_in(std::string& text);
 
 // Returns the tag of a group of curves or surfaces. Throws BadInput with all known names if there

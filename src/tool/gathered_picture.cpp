@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/small_letters.hpp"
 #include "picture/body.hpp"
 #include "picture/node_set.hpp"
 #include "tool/cut.hpp"
@@ -128,12 +129,20 @@ picture::Body gathered_body(pnpbs_placement placement, pnpbs_context context, co
   return body;
 }
 
-std::vector<double> outline_of(pnpbs_domain domain, pnpbs_context context) {
+// Adds the curves of the domain. As in files of SCHISM, a curve is open if the name of its tag
+// begins with "open".
+void add_outline(pnpbs_domain domain, pnpbs_context context, picture::NodeSet& set) {
   std::int64_t count = 0;
   check(pnpbs_domain_get_segments(domain, 0, &count, nullptr, nullptr), context);
-  std::vector<double> outline(4 * static_cast<std::size_t>(count));
-  check(pnpbs_domain_get_segments(domain, count, &count, outline.data(), nullptr), context);
-  return outline;
+  set.outline.resize(4 * static_cast<std::size_t>(count));
+  std::vector<std::int32_t> tags(static_cast<std::size_t>(count));
+  check(pnpbs_domain_get_segments(domain, count, &count, set.outline.data(), tags.data()), context);
+  std::vector<std::int32_t> open;
+  for (const GroupName& group : group_names(domain, context))
+    if (group.dimension == 1 && to_lower_case(group.name).starts_with("open"))
+      open.push_back(group.tag);
+  for (const std::int32_t tag : tags)
+    set.open.push_back(std::ranges::find(open, tag) != open.end());
 }
 
 // Returns the default view, from above the point opposite to the centre of projection, around which
@@ -146,14 +155,15 @@ picture::SphereView view_of(const Arguments& arguments) {
 
 }  // namespace
 
-PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
-                    pnpbs_context context) {
+PictureLook look_of(const Arguments& arguments, int dimension, const std::string& unit,
+                    pnpbs_domain domain, pnpbs_context context) {
   using picture::ElementColour;
-  if (dimension == 2) return {arguments.bubbles, arguments.colour.value_or(ElementColour::none)};
-  if (arguments.sphere)
-    return {false, arguments.colour.value_or(ElementColour::none), {}, view_of(arguments)};
-  return {false, arguments.colour.value_or(ElementColour::quality),
-          cut_plane_for(arguments.cut, domain, context)};
+  const bool is_body = dimension == 3 && !arguments.sphere;
+  const ElementColour default_colour = is_body ? ElementColour::quality : ElementColour::none;
+  PictureLook look{{arguments.bubbles, arguments.colour.value_or(default_colour), unit}};
+  if (arguments.sphere) look.sphere = view_of(arguments);
+  if (is_body) look.cut = cut_plane_for(arguments.cut, domain, context);
+  return look;
 }
 
 GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
@@ -165,14 +175,14 @@ GatheredPicture::GatheredPicture(pnpbs_placement placement, pnpbs_domain domain,
   }
   nodes_ = gathered_nodes(placement, context, ranks);
   ranks.collective_try([&] {
-    if (ranks.is_first()) nodes_.outline = outline_of(domain, context);
+    if (ranks.is_first()) add_outline(domain, context, nodes_);
   });
 }
 
 picture::Drawing GatheredPicture::drawing() const {
-  if (look_.sphere) return picture::drawing_of(body_, *look_.sphere, look_.colour);
-  if (look_.cut) return picture::drawing_of(body_, *look_.cut, look_.colour);
-  return picture::drawing_of(nodes_, {look_.bubbles, look_.colour});
+  if (look_.sphere) return picture::drawing_of(body_, *look_.sphere, look_.style);
+  if (look_.cut) return picture::drawing_of(body_, *look_.cut, look_.style);
+  return picture::drawing_of(nodes_, look_.style);
 }
 
 }  // namespace pnpbs::tool

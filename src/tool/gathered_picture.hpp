@@ -12,16 +12,16 @@
 namespace pnpbs::tool {
 
 struct PictureLook {
-  bool bubbles = false;
-  picture::ElementColour colour = picture::ElementColour::none;
+  picture::PictureStyle style{};
   // At most one of them is set, for a body or a sphere. Neither is set for a domain in the plane.
   std::optional<picture::CutPlane> cut{};
   std::optional<picture::SphereView> sphere{};
 };
 
-// Returns the appearance that the arguments request. Local. Throws BadInput.
-PictureLook look_of(const Arguments& arguments, int dimension, pnpbs_domain domain,
-                    pnpbs_context context);
+// Returns the appearance that the arguments request. `unit` is the unit of length, or empty. Local.
+// Throws BadInput.
+PictureLook look_of(const Arguments& arguments, int dimension, const std::string& unit,
+                    pnpbs_domain domain, pnpbs_context context);
 
 class GatheredPicture {
  public:

@@ -81,7 +81,7 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
   for (const auto& [name, value] :
        {std::pair{"--sphere", std::string(arguments.sphere ? "given" : "")},
         std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},
-        std::pair{"--unit", arguments.unit}, std::pair{"--tag-field", arguments.tag_field}})
+        std::pair{"--tag-field", arguments.tag_field}})
     if (!value.empty()) option = name;
   const bool is_other =
       arguments.domain == "-" || arguments.domain.ends_with(')') || is_in(ending, other_endings);
@@ -98,7 +98,7 @@ GeoFile::GeoFile(const Arguments& arguments)
     : path_(arguments.domain),
       layer_(arguments.layer),
       projection_(arguments.sphere ? projection_of(*arguments.sphere) : arguments.projection),
-      unit_(arguments.unit),
+      unit_(arguments.sphere ? "" : arguments.unit),
       tag_field_(arguments.tag_field) {}
 
 GeoFile::~GeoFile() {
@@ -161,6 +161,12 @@ bool GeoFile::leaves_out_lines() const {
     any = any || code == PNPBS_GEO_NOTE_LINES_LEFT_OUT;
   }
   return any;
+}
+
+std::string unit_of_length(const Arguments& arguments, const GeoFile* geo) {
+  if (!arguments.unit.empty() || arguments.sphere || !geo) return arguments.unit;
+  const std::string unit = geo->projection().unit;
+  return unit == "metre" ? "m" : unit == "kilometre" ? "km" : unit;
 }
 
 }  // namespace pnpbs::tool

@@ -71,4 +71,8 @@ class GeoFile {
   pnpbs_geo_shapes shapes_ = nullptr;
 };
 
+// Returns the unit of length of x, y and d: that of --unit, or of the projection of a geographic
+// file, or "" if it is not known. `geo` is null for other domains.
+std::string unit_of_length(const Arguments& arguments, const GeoFile* geo);
+
 }  // namespace pnpbs::tool

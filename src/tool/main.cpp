@@ -267,11 +267,12 @@ void read_domain(Work& work) {
   source.read(work.domain, work.context, work.ranks);
   if (source.geo() && work.talks()) print_projection(*source.geo());
   work.ranks.collective_try([&] {
-    work.requests.grids->read(work.domain, work.context, source.geo());
+    const std::string unit = unit_of_length(arguments, source.geo());
+    work.requests.grids->read(work.domain, work.context, source.geo(), unit);
     spacing.use_read_grids(*work.requests.grids);
     if (arguments.simplify)
       spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
-    work.look = look_of(arguments, source.dimension(), work.domain, work.context);
+    work.look = look_of(arguments, source.dimension(), unit, work.domain, work.context);
   });
   measure_body(work);
   if (arguments.at_centres) centre_nodes(work);

@@ -232,12 +232,12 @@ void NamedGrids::require_use_in(const std::vector<std::string>& formulas) const 
   if (depth_) require(DepthRequest::name, DepthRequest::option);
 }
 
-void NamedGrids::read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo) {
+void NamedGrids::read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo,
+                      const std::string& unit) {
   if (grids_.empty()) return;
   const std::string projection = sphere_ ? "EPSG:4326" : geo ? geo->projection().wkt : "";
   const Box<3> bounds = sphere_ ? all_degrees : bounds_of(domain, context);
-  if (depth_)
-    depth_->rule.metres = metres_per_unit(*depth_, !sphere_ && geo ? geo->projection().unit : "");
+  if (depth_) depth_->rule.metres = metres_per_unit(*depth_, unit);
   for (const auto& grid : grids_) grid->open(projection, bounds);
 }
 

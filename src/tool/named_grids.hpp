@@ -31,8 +31,9 @@ class NamedGrids {
   void require_use_in(const std::vector<std::string>& formulas) const;
 
   // Reads the part of each grid that covers the domain, in the domain's projection. Must be called
-  // before values are evaluated. Local. Throws Failure.
-  void read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo);
+  // before values are evaluated. `unit` is the unit of length, or empty. Local. Throws Failure.
+  void read(pnpbs_domain domain, pnpbs_context context, const GeoFile* geo,
+            const std::string& unit);
 
   // Throws Failure if a grid has no value at any node. Collective.
   void require_values(pnpbs_placement placement, pnpbs_domain domain, pnpbs_context context,

@@ -110,6 +110,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
+  if (!arguments.unit.empty()) report["unit"] = arguments.unit;
   if (geo) describe(*geo, arguments, report);
   if (arguments.sphere)
     report["sphere"] = {{"radius", arguments.sphere->radius},

@@ -14,6 +14,8 @@ import sys
 import tempfile
 import unittest
 
+import yaml
+
 HERE = pathlib.Path(__file__).parent
 SOURCE, VERSION, JULIA = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 sys.path.insert(0, str(HERE / "stand_in"))
@@ -146,6 +148,68 @@ class Yggdrasil(unittest.TestCase):
             self.assertIn(line, lines)
         self.assertEqual(sum(line.startswith("platform: ") for line in lines), 1)
         self.assertTrue(any(f"/pnpbs-{VERSION}.tar.gz " in line for line in lines), told)
+
+
+class Conda(unittest.TestCase):
+    """The recipe is read by PyYAML. Conditions on MPI are evaluated for each variant."""
+
+    recipe = yaml.safe_load((SOURCE / "packaging/conda/recipe.yaml").read_text())
+    variants = yaml.safe_load((SOURCE / "packaging/conda/variants.yaml").read_text())["mpi"]
+
+    def needed(self, section, mpi):
+        """Returns the names of the packages that a section requires in a variant of MPI."""
+        names = set()
+        for entry in self.recipe["requirements"][section]:
+            if isinstance(entry, dict):
+                self.assertEqual(set(entry), {"if", "then"})
+                self.assertEqual(entry["if"], 'mpi != "nompi"')
+            given = [entry] if isinstance(entry, str) else entry["then"] if mpi != "nompi" else []
+            names.update(name.replace("${{ mpi }}", mpi).split()[0] for name in given)
+        return names
+
+    def test_version(self):
+        self.assertEqual(self.recipe["context"]["version"], VERSION)
+        self.assertIn("pnpbs-${{ version }}.", self.recipe["source"]["url"])
+
+    def test_says_honestly_that_there_is_no_release(self):
+        self.assertEqual(self.recipe["source"]["sha256"] != ZEROS, ".invalid" not in self.recipe["source"]["url"])
+
+    def test_names_options_that_exist(self):
+        named = set(re.findall(r"(?:-D|cmake\.define\.)(PNPBS_\w+)=", " ".join(self.recipe["build"]["script"])))
+        self.assertGreater(len(named), 5)
+        self.assertLessEqual(named, options() | {"PNPBS_LIBRARY"})
+
+    def test_dependencies(self):
+        self.assertIn("nompi", self.variants)
+        for mpi in self.variants:
+            host, run = self.needed("host", mpi), self.needed("run", mpi)
+            self.assertLessEqual({"kokkos", "hdf5", "zlib", "libgdal-core", "cairo", "muparser", "cli11",
+                                  "nlohmann_json", "scikit-build-core"}, host)
+            self.assertLessEqual({"python", "numpy", "hdf5", "zlib"}, run)
+            for package, section in (("metis", host), (mpi, host), ("metis", run), ("mpi4py", run)):
+                self.assertEqual(package in section, mpi != "nompi", (package, mpi))
+
+
+class Release(unittest.TestCase):
+    workflow = yaml.safe_load((SOURCE / "packaging/github/release.yml").read_text())
+
+    def test_names_what_exists(self):
+        (build,) = [step for step in self.workflow["jobs"]["wheels"]["steps"] if "cibuildwheel" in step["uses"]]
+        self.assertTrue((SOURCE / build["with"]["package-dir"] / "pyproject.toml").exists())
+        settings = re.findall(r"cmake\.define\.(PNPBS_\w+)=", build["env"]["CIBW_CONFIG_SETTINGS"])
+        self.assertGreater(len(settings), 1)
+        self.assertLessEqual(set(settings), options())
+        program = re.search(r"\{project\}/(\S+)", build["env"]["CIBW_TEST_COMMAND"])[1]
+        self.assertTrue((SOURCE / program).exists())
+
+    def test_only_tags_are_published(self):
+        publish = self.workflow["jobs"]["publish"]
+        self.assertEqual(publish["if"], "startsWith(github.ref, 'refs/tags/v')")
+        self.assertEqual(set(publish["needs"]), {"wheels", "archive"})
+        self.assertEqual(publish["permissions"], {"id-token": "write"})
+        for job in self.workflow["jobs"].values():
+            for step in job["steps"]:
+                self.assertFalse("password" in str(step) or "token" in str(step), step)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 HREF = "{http://www.w3.org/1999/xlink}href"
 BY = ("quality", "edge", "spacing")
 CLASSES = 49
+INK, OPEN = (0x1F, 0x2A, 0x37), (0x1F, 0x8F, 0xD6)
 TRIANGLE = r"M \S+ \S+ L \S+ \S+ L \S+ \S+ Z"
 
 # With d = 1 the corners of the square are the only nodes, so both triangles are halves of it. Their
@@ -42,6 +43,18 @@ def fills(root):
             colour = [float(part) / 100 for part in fill.groups()]
             found.append((colour, len(re.findall(TRIANGLE, path.get("d", "")))))
     return [entry for entry in found if entry[1]]
+
+
+def lines(root):
+    """Returns the number of straight lines in paths of each of the colours of curves."""
+    found = {}
+    for path in root.iter(SVG + "path"):
+        stroke = re.search(r"stroke:rgb\((.+?)%,(.+?)%,(.+?)%\)", path.get("style", ""))
+        count = len(re.findall(r"M \S+ \S+ L \S+ \S+ (?!L)", path.get("d", "") + " "))
+        colour = tuple(round(float(part) * 2.55) for part in stroke.groups()) if stroke else None
+        if colour in (INK, OPEN) and count:
+            found.setdefault(colour, count)  # the scale bar and its like come later
+    return found
 
 
 def pattern(things):
@@ -109,6 +122,24 @@ class Colors(CommandTest):
             self.assertLess(float(low), 1.2 * float(least))
             self.assertTrue(0.08 < float(high) < 0.09)
             self.assertTrue(shows(root, "".join([low, *between, high])))
+
+    def test_the_scale_bar_has_the_unit(self):
+        unit = "cocococo"  # letters that no other text repeats in this way
+        (self.folder / "unit.poly").write_text(UNIT_SQUARE)
+        for domain, colour in (("unit.poly", "none"), ("unit.poly", "edge"), ("box(0,0,0, 1,1,1)", "quality")):
+            with self.subTest(domain, colour=colour):
+                ask = {"domain": domain, "spacing": "0.2"}
+                self.assertFalse(shows(self.picture(colour, **ask), unit))
+                self.assertTrue(shows(self.picture(colour, "--unit", unit, **ask), unit))
+
+    def test_open_boundaries_have_a_colour(self):
+        """Checks that the sides of the square with the tag 2 are blue and the others dark."""
+        (self.folder / "unit.poly").write_text(
+            "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 1\n1 1 2 2\n2 2 3 1\n3 3 4 1\n4 4 1 1\n0\n")
+        for name, expected in (("Open sea", {OPEN: 1, INK: 3}), ("sea", {INK: 4})):
+            root = self.picture("none", "--name", f"2={name}", domain="unit.poly", spacing="0.5")
+            self.assertEqual(lines(root), expected)
+            self.assertEqual(shows(root, "boundaryopen"), OPEN in expected)
 
     def test_triangles_too_small_to_be_seen_become_pixels(self):
         strip = UNIT_SQUARE.replace("3 1 1", "3 1 0.1", 1).replace("4 0 1", "4 0 0.1", 1)

@@ -238,8 +238,21 @@ class Groups(GridsTest):
         self.assertGreater(np.mean(outside["spacing"] > 0.1), 0.05)
         self.assertNotEqual(len(outside), len(first))
 
+    def test_distances_to_several_groups(self):
+        """Compares dist(A, B) with the least of dist(A) and dist(B), and with dist, because the two
+        groups are the whole boundary."""
+        ask = ("--name", "2=the hole", "--name", "1=outside", "--nodes-only")
+        both, *_ = self.on_square(*ask, "--spacing", "0.05 + 0.2*min(dist(1), dist(2))")
+        for several in ("dist(1, 2)", "dist('the hole', outside)", "dist( outside ,2 )", "dist(2, 1, 2)", "dist"):
+            with self.subTest(several):
+                same, *_ = self.on_square(*ask, "--spacing", f"0.05 + 0.2*{several}")
+                np.testing.assert_array_equal(both["x"], same["x"])
+
     def test_names_that_are_none(self):
         ask = ("--domain", self.square, "-o", "a.csv", "--name", "2=hole", "--spacing")
+        for call in ("dist(hle, hole)", "dist(hole, 'hle')"):
+            self.assertIn("dist(hle): the domain has no group of that name", self.refuse(*ask, f"0.1 + {call}"))
+        self.refuse(*ask, "0.1 + dist()")
         message = self.refuse(*ask, "0.1 + dist(hle)")
         self.assertIn("dist(hle): the domain has no group of that name; did you mean hole?", message)
         self.assertIn("unknown name 'hole'", self.refuse(*ask, "0.1 + hole"))

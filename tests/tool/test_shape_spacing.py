@@ -156,6 +156,7 @@ class ShapeSpacing(CommandTest):
                 np.testing.assert_allclose(table["spacing"], expected, rtol=1e-12)
                 self.assertGreater(np.sum(expected != 0.1), 10)
         for wrong, words in (("dist(0.5)", "--spacing: dist(0.5): expected a tag"),
+                             ("dist(1, 0.5)", "--spacing: dist(0.5): expected a tag"),
                              ("gap(0)", "--spacing: gap(0): expected a number"),
                              ("dist(77)", "argument tag = 77")):
             with self.subTest(wrong):

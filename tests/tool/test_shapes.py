@@ -150,8 +150,8 @@ class Shapes(ShapesTest):
         self.assertIn("--unit = 'mile'", self.refuse(*ask, "--unit", "mile"))
         self.assertIn("--layer is for GeoJSON", self.refuse("--domain", LAKE, "--spacing", "20",
                                                             "--layer", "a"))
-        self.assertIn("--unit is for GeoJSON", self.refuse("--domain", "ball(0,0,0, 1)",
-                                                           "--spacing", "1", "--unit", "m"))
+        self.assertIn("--layer is for GeoJSON", self.refuse("--domain", "ball(0,0,0, 1)",
+                                                            "--spacing", "1", "--layer", "a"))
         bow = self.geojson(feature("Polygon", [closed([SQUARE[k] for k in (0, 2, 1, 3)])]))
         message = self.refuse("--domain", bow, "--spacing", "20")
         self.assertRegex(message, r"cross at \(.*\) \[longitude 19\.0[0-9]*, latitude 54\.5[0-9]*\]")

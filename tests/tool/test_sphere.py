@@ -98,6 +98,14 @@ class WholeSphere(CommandTest):
         shown, _ = self.triangles_in_picture("--view", "map")
         all_of_them = 2 * (self.placed(spacing="600")[1]["nodes"] - 2)
         self.assertTrue(all_of_them < len(shown) < 1.2 * all_of_them, f"{len(shown)} of {all_of_them}")
+        # 12 meridians and 5 parallels; from above the equator all parallels are seen, and 7 meridians
+        # of which two are at the rim.
+        for view, expected in (("map", (17,)), ("0,0", (10, 11, 12))):
+            self.triangles_in_picture("--view", view)
+            picture = (self.folder / "sphere.svg").read_text()
+            graticule = re.findall(r'<path style="fill:none;[^"]*stroke-opacity:0.35;[^"]*" d="([^"]*)"', picture)
+            self.assertEqual(len(graticule), 1)
+            self.assertIn(graticule[0].count("M"), expected)
         for view in ("0", "0,91", "maps"):
             self.assertIn("--view: expected LON,LAT", self.refuse("--sphere", "1", "--spacing", "1", "--view", view))
         self.assertIn("it needs --sphere", self.refuse("--domain", LAKE, "--spacing", "1", "--view", "map"))
