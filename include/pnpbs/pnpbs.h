@@ -888,9 +888,10 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  are done, and finishes. A later call starts a new schedule from the current nodes. Collective.
  *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether or
  *  not the bubbles are at rest, if in one of the bands of pnpbs_placement_get_edge_bands the mean
- *  over 50 edges or more differs from 1 by more than 0.1 (a warning names the band), and so does,
- *  where 50 edges or more join two nodes inside the domain, the mean over these (edges through a
- *  thin wall are as long as it is thick); PNPBS_NOT_CONFORMING, whatever else is true, if there are
+ *  over 50 edges or more differs from 1 by more than 0.1 and twice its standard error (a warning
+ *  names the band), and so does, where 50 edges or more join two nodes inside the domain, the mean
+ *  over these (edges through a thin wall are as long as it is thick; edges that end at feature edges
+ *  and corners of a body do not count); PNPBS_NOT_CONFORMING, whatever else is true, if there are
  *  no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
  *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
  *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join

@@ -96,6 +96,13 @@ SpacingBands bands_of_nodes(const Communicator& comm, const MeasuredNodes<Dim>& 
   return {d.min, d.max};
 }
 
+// Returns whether the node is on a feature edge or a corner of a body, or fixed inside it.
+bool is_on_feature(const Nodes<2>&, std::int64_t) { return false; }
+bool is_on_feature(const Nodes<3>& nodes, std::int64_t i) {
+  return nodes.moving == Carrier::free &&
+         (nodes.carrier(i) == Carrier::curve || nodes.carrier(i) == Carrier::fixed);
+}
+
 // Returns the sums over this rank's edges (i, j) for which counts(i, j) is true.
 template <int Dim, class Counts>
 EdgeSums local_edge_sums(const MeasuredNodes<Dim>& measured, const Stars<Dim>& stars,
@@ -316,6 +323,7 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
                                           const Stars<Dim>& stars, const View<char>& left_out) {
   const Nodes<Dim>& nodes = measured.nodes;
   const auto counts = [&](std::int64_t i, std::int64_t j) {
+    if (is_on_feature(nodes, i) || is_on_feature(nodes, j)) return false;
     return left_out.extent(0) == 0 || !(left_out(i) || left_out(j));
   };
   const auto counts_inside = [&](std::int64_t i, std::int64_t j) {
@@ -371,9 +379,12 @@ ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Di
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   constexpr double kMissed = 0.1;
   const EdgeBand* worst = nullptr;
-  for (const EdgeBand& band : bands)
-    if (band.ratio.edges >= kEnoughEdges && off(band.ratio) > (worst ? off(worst->ratio) : kMissed))
-      worst = &band;
+  for (const EdgeBand& band : bands) {
+    if (band.ratio.edges < kEnoughEdges) continue;
+    const double error = band.ratio.deviation / std::sqrt(static_cast<double>(band.ratio.edges));
+    const bool is_missed = off(band.ratio) > kMissed + 2 * error;
+    if (is_missed && (!worst || off(band.ratio) > off(worst->ratio))) worst = &band;
+  }
   return worst;
 }
 

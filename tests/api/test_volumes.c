@@ -394,6 +394,34 @@ START_TEST(walls_of_two_d) {
 }
 END_TEST
 
+static pnpbs_status coarse_box_with_cavity(pnpbs_domain domain, const char* folder) {
+  const double low[] = {-1, -1, -1}, high[] = {1, 1, 1}, centre[] = {0, 0, 0};
+  const pnpbs_status status = pnpbs_domain_add_box(domain, low, high, 1);
+  (void)folder;
+  return status < 0 ? status : pnpbs_domain_add_ball(domain, centre, 0.4, 2);
+}
+
+static int32_t coarse_from_the_centre(int64_t n, int32_t dim, const double* xyz, double* d,
+                                      void* user) {
+  int64_t i;
+  (void)dim, (void)user;
+  for (i = 0; i < n; ++i)
+    d[i] = 0.15 + 0.1 * sqrt(xyz[3 * i] * xyz[3 * i] + xyz[3 * i + 1] * xyz[3 * i + 1] +
+                             xyz[3 * i + 2] * xyz[3 * i + 2]);
+  return 0;
+}
+
+/* The largest d is at the edges of the box, where the nodes inside are about 1.15 d from those of
+ * the edge, as everywhere at a dihedral angle of 90 degrees. Such edges do not miss d. */
+START_TEST(coarse_at_the_edges_of_a_box) {
+  job it = body_job(coarse_box_with_cavity);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, coarse_from_the_centre, NULL));
+  MUST_BE(PNPBS_OK, pnpbs_placement_run(it.placement));
+  ck_assert_int_eq(integer_of(it.placement, "nodes"), 1021);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(too_few_nodes_in_a_wall) {
   job it = body_job(thicker_wall);
   double xyz[3 * 100];
@@ -806,6 +834,7 @@ TEST_SUITE(test_volumes) {
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, fine_at_a_line_in_a_low_box);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, walls_as_thick_as_d);
   tcase_add_test(tests, walls_of_two_d);
+  tcase_add_test(tests, coarse_at_the_edges_of_a_box);
   tcase_add_test(tests, too_few_nodes_in_a_wall);
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, distances_of_repairs_are_statistics);
   tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, WHEN_SANITIZED(1, 2));

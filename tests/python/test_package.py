@@ -288,6 +288,8 @@ class Spacings(Case):
             placement.run(strict=True)
         self.assertEqual(caught.exception.status, Status.NOT_CONVERGED)
         self.assertGreater(placement.node_count, 100)
+        with self.assertWarnsRegex(pnpbs.PNPBSWarning, "not come to rest; allow more steps"):
+            self.assertEqual(placement.run(), Status.NOT_CONVERGED)
         placement.set(steps=1000)
         self.assertEqual(placement.run(strict=True), Status.OK)
 

@@ -18,7 +18,7 @@ from ._interface import library
 from ._progress import ProgressBar
 from ._summaries import counted
 from ._types import ArrayFunction, Doubles, Monitor, OptionValue, Path
-from ._warnings import warning_class
+from ._warnings import PNPBSWarning, WarningCode, WarningData, warning_class
 from .context import _set_option
 from .domain import Domain
 from .errors import OutcomeError, Status
@@ -365,6 +365,9 @@ class Placement(Results, Fields, Meshes, Tessellation):
             outcome = self._call("run")
         self._spacings_before.clear()
         self._warn()
+        if outcome == Status.NOT_CONVERGED:
+            text = "the bubbles have not come to rest; allow more steps (option steps)"
+            warnings.warn(PNPBSWarning(WarningData(WarningCode.UNKNOWN, text, 0, None, None)), stacklevel=2)
         if strict and outcome != Status.OK:
             raise OutcomeError(outcome, [data.text for data in self.warning_data()])
         return outcome
