@@ -2,6 +2,7 @@
 #include "picture/lettering.hpp"
 
 #include <charconv>
+#include <cmath>
 
 namespace pnpbs::picture {
 
@@ -27,7 +28,12 @@ double draw_text(cairo_t* cairo, double x, double y, const std::string& text, do
 std::string short_number(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3);
-  return {text, end.ptr};
+  if (!(std::fabs(value) >= 1e3 && std::fabs(value) < 1e6)) return {text, end.ptr};
+  // Such numbers are written without an exponent.
+  double rounded = value;
+  std::from_chars(text, end.ptr, rounded);
+  const auto whole = std::to_chars(text, text + sizeof text, rounded, std::chars_format::fixed, 0);
+  return {text, whole.ptr};
 }
 
 }  // namespace pnpbs::picture

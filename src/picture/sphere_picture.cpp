@@ -194,9 +194,9 @@ class SpherePainter {
       for (int lon = -180; lon <= 180; ++lon) parallel.push_back({1. * lon, 1. * lat});
       add_line(cairo, parallel);
     }
-    constexpr double opacity = 0.35;
+    constexpr double opacity = 0.55;
     set_colour(cairo, ink, opacity);
-    cairo_set_line_width(cairo, frame_.line_width);
+    cairo_set_line_width(cairo, 1.8 * frame_.line_width);
     cairo_stroke(cairo);
   }
 

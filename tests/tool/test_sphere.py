@@ -103,7 +103,7 @@ class WholeSphere(CommandTest):
         for view, expected in (("map", (17,)), ("0,0", (10, 11, 12))):
             self.triangles_in_picture("--view", view)
             picture = (self.folder / "sphere.svg").read_text()
-            graticule = re.findall(r'<path style="fill:none;[^"]*stroke-opacity:0.35;[^"]*" d="([^"]*)"', picture)
+            graticule = re.findall(r'<path style="fill:none;[^"]*stroke-opacity:0.55;[^"]*" d="([^"]*)"', picture)
             self.assertEqual(len(graticule), 1)
             self.assertIn(graticule[0].count("M"), expected)
         for view in ("0", "0,91", "maps"):
