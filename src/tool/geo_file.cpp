@@ -40,6 +40,7 @@ void find(void* library, Function& function, const char* name) {
 
 GeoLibrary::GeoLibrary() {
   void* const library = open_library();
+  find(library, build_info, "pnpbs_geo_build_info");
   find(library, last_error, "pnpbs_geo_last_error");
   find(library, read, "pnpbs_geo_read");
   find(library, destroy, "pnpbs_geo_destroy");

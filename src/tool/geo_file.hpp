@@ -18,6 +18,7 @@ struct GeoLibrary {
   GeoLibrary();  // throws Failure if the library cannot be opened
 
 #define PNPBS_TOOL_FUNCTION(name) decltype(&pnpbs_geo_##name) name
+  PNPBS_TOOL_FUNCTION(build_info);
   PNPBS_TOOL_FUNCTION(last_error);
   PNPBS_TOOL_FUNCTION(read);
   PNPBS_TOOL_FUNCTION(destroy);

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "base/build_config.hpp"
+#include "tool/exit.hpp"
 #include "tool/expression.hpp"
 #include "tool/file_format.hpp"
+#include "tool/geo_file.hpp"
 #include "tool/library.hpp"
 
 namespace pnpbs::tool {
@@ -87,8 +88,11 @@ std::string version_text() {
   std::string text = "pnpbs " + std::to_string(major) + "." + std::to_string(minor) + "." +
                      std::to_string(patch) + "\n" + pnpbs_build_info();
   if (!text.ends_with('\n')) text += '\n';
-  const std::string gdal = PNPBS_GDAL_VERSION_TEXT;
-  return text + "GDAL: " + (gdal.empty() ? "none: no GeoJSON, no shapefiles" : gdal) + "\n";
+  try {
+    return text + GeoLibrary().build_info();
+  } catch (const Failure&) {
+    return text + "GDAL: none: no GeoJSON, no shapefiles\n";
+  }
 }
 
 }  // namespace pnpbs::tool

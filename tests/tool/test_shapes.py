@@ -53,6 +53,10 @@ class Without(ShapesTest):
 
 @exists_if(BUILT)
 class Shapes(ShapesTest):
+    def test_the_version_names_gdal(self):
+        out, _ = self.run_command("--version")
+        self.assertRegex(out.decode(), r"(?m)^GDAL: \d+\.\d+")
+
     def nodes(self, *arguments, spacing="20", domain=None):
         """Runs the command in kilometres. Returns coordinates, report and messages."""
         report, err = self.report("--domain", domain or self.geojson(LAND), "--spacing", spacing,
