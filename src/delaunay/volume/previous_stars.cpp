@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "base/index_by_id.hpp"
 #include "base/space_vectors.hpp"
 #include "base/types.hpp"
 #include "delaunay/volume/domain_rule.hpp"
@@ -164,40 +164,6 @@ void for_chunks(const char* label, std::int64_t count, const Body& body) {
            [&](std::int64_t c) { body(c * kChunk, std::min((c + 1) * kChunk, count)); });
 }
 
-// Maps the ids of the nodes for which counts(i) holds to their indices. It uses a table if the ids
-// are dense.
-class IndexById {
- public:
-  template <class Counts>
-  IndexById(const Nodes<3>& nodes, const Counts& counts) {
-    std::int64_t end = 0, count = 0;
-    for (std::int64_t i = 0; i < nodes.count; ++i) {
-      if (!counts(i)) continue;
-      end = std::max(end, nodes.id(i) + 1);
-      ++count;
-    }
-    const bool dense = end <= 4 * count;
-    if (dense) table_.assign(index(end), -1);
-    for (std::int32_t i = 0; i < nodes.count; ++i) {
-      if (!counts(i)) continue;
-      if (dense)
-        table_[index(nodes.id(i))] = i;
-      else
-        map_.emplace(nodes.id(i), i);
-    }
-  }
-  // Returns -1 if there is no such node or it does not count.
-  std::int32_t place_of(std::int64_t id) const {
-    if (!table_.empty()) return id >= 0 && id < std::ssize(table_) ? table_[index(id)] : -1;
-    const auto found = map_.find(id);
-    return found == map_.end() ? -1 : found->second;
-  }
-
- private:
-  std::vector<std::int32_t> table_;
-  std::unordered_map<std::int64_t, std::int32_t> map_;
-};
-
 // Number of rows of each chunk that are still to be used by any thread.
 class Uses {
  public:
@@ -294,7 +260,7 @@ PreviousStars::Places PreviousStars::find_places(const Nodes<3>& nodes,
   Places places{std::vector<std::int32_t>(ids_.size()),
                 std::vector<std::int32_t>(index(nodes.count), -1)};
   for (std::size_t k = 0; k < ids_.size(); ++k) {
-    const std::int32_t now = by_id.place_of(ids_[k]);
+    const std::int32_t now = by_id.of(ids_[k]);
     places.now[k] = now;
     if (now >= 0 && owned_[k]) places.before[index(now)] = static_cast<std::int32_t>(k);
   }

@@ -31,7 +31,7 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
     before_[static_cast<std::size_t>(i)] = nodes.position(i);
   bool any_ghost = false;
   for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
-  for (std::int32_t i = 0; any_ghost && i < nodes.count; ++i) place_of_id_[nodes.id(i)] = i;
+  if (any_ghost) index_by_id_ = IndexById(nodes);
   find_slivers();
 }
 

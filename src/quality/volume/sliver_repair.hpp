@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "base/index_by_id.hpp"
 #include "base/nodes.hpp"
 #include "base/timers.hpp"
 #include "method/constants.hpp"
@@ -133,7 +133,6 @@ class SliverRepair {
   void find_slivers();
   void accept(const std::vector<StarChange>& changes);
 
-  std::int32_t place_of(std::int64_t id) const;
   std::int32_t corner_to_move(const TetrahedronNodes& sliver, std::uint64_t lot,
                               std::int64_t number) const;
   std::int32_t node_to_move(std::int32_t corner, std::uint64_t lot) const;
@@ -174,7 +173,7 @@ class SliverRepair {
   std::vector<Attempt> attempts_;          // attempts of this round
   std::vector<StarChange> changes_;        // changes of the last round
   std::int64_t unknown_draws_ = 0;
-  std::unordered_map<std::int64_t, std::int32_t> place_of_id_;  // empty without ghosts
+  IndexById index_by_id_;  // empty without ghosts
 };
 
 }  // namespace pnpbs

@@ -6,12 +6,6 @@
 
 namespace pnpbs {
 
-// Returns the local index of the node with this id, or -1 if this rank does not have it.
-std::int32_t SliverRepair::place_of(std::int64_t id) const {
-  const auto found = place_of_id_.find(id);
-  return found == place_of_id_.end() ? -1 : found->second;
-}
-
 std::vector<std::int32_t> SliverRepair::drawn_corners() const {
   std::vector<std::int32_t> corners;
   for (const Attempt& attempt : attempts_) corners.push_back(attempt.corner);
@@ -30,10 +24,10 @@ std::vector<SliverDraw> SliverRepair::draws_of(std::int32_t corner) const {
 
 void SliverRepair::take(const std::vector<SliverDraw>& draws) {
   for (const SliverDraw& draw : draws) {
-    const std::int32_t node = place_of(draw.node);
+    const std::int32_t node = index_by_id_.of(draw.node);
     if (node < 0) continue;  // too far from the owned nodes to matter
     TetrahedronNodes sliver;
-    for (std::size_t k = 0; k < 4; ++k) sliver[k] = place_of(draw.sliver[k]);
+    for (std::size_t k = 0; k < 4; ++k) sliver[k] = index_by_id_.of(draw.sliver[k]);
     const bool known = std::ranges::find(sliver, -1) == sliver.end();
     if (nodes_.owned(node) && !known) {
       ++unknown_draws_;
@@ -71,12 +65,12 @@ std::vector<std::int32_t> SliverRepair::moved_nodes() const {
 void SliverRepair::follow(const std::vector<ChangedTetrahedron>& news) {
   std::vector<StarChange> changes;
   for (const ChangedTetrahedron& record : news) {
-    const std::int32_t node = place_of(record.node);
+    const std::int32_t node = index_by_id_.of(record.node);
     if (node < 0) continue;
     if (changes.empty() || changes.back().node != node)
       changes.push_back({node, record.x, {}, {}, record.on});
     TetrahedronNodes corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = place_of(record.corners[k]);
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = index_by_id_.of(record.corners[k]);
     if (std::find(corners.begin(), corners.end(), -1) == corners.end())
       (record.made ? changes.back().made : changes.back().gone).push_back(corners);
   }
