@@ -7,7 +7,7 @@
 
 #include "base/nodes_worked_for.hpp"
 #include "delaunay/plane/lawson_flips.hpp"
-#include "level/ghost_lists.hpp"
+#include "level/ghost_stars.hpp"
 #include "level/node_digest.hpp"
 #include "level/volume/surface_stars.hpp"
 #include "neighbors/rings.hpp"
@@ -136,7 +136,7 @@ void build_stars(Level<2>& level, const KnownRegion<2>& known, bool) {
 }
 void build_stars(Level<3>& level, const KnownRegion<3>& known, bool stored_stars_hold) {
   const bool on_surfaces = level.geometry.kind() == GeometryKind::surface;
-  if (!on_surfaces && level.stars_before.any() && known.is_everywhere()) {
+  if (!on_surfaces && (level.stars_before.any() || level.distributed())) {
     begin_stars(level, known, stored_stars_hold);
     return find_owned_stars(level, known, owned_without_star(level));
   }
@@ -190,20 +190,6 @@ class UnknownBoxes {
   std::set<std::int32_t> leaves_;
 };
 
-// Returns the owned nodes that have a ghost as a neighbour in `graph`, which is the lists or the
-// stars.
-template <int Dim, class Graph>
-std::vector<std::int64_t> nodes_at_border(const Nodes<Dim>& nodes, const Graph& graph) {
-  std::vector<std::int64_t> at_border;
-  for (std::int64_t i = 0; i < nodes.count; ++i) {
-    if (!nodes.owned(i)) continue;
-    bool is = false;
-    graph.for_neighbours(i, [&](std::int64_t j) { is = is || !nodes.owned(j); });
-    if (is) at_border.push_back(i);
-  }
-  return at_border;
-}
-
 // Finds the stars of all nodes. Returns the boxes that must be known for the required stars that
 // are missing.
 template <int Dim>
@@ -213,15 +199,15 @@ std::vector<Box<Dim>> find_all_stars(Level<Dim>& level, const KnownRegion<Dim>& 
   UnknownBoxes<Dim> unknown(level, known);
   if (known.is_everywhere()) return unknown.boxes();
   const Nodes<Dim>& nodes = level.nodes;
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (nodes.owned(i)) unknown.request_around(i);
   std::vector<char> reached = owned_nodes(nodes);
-  std::vector<std::int64_t> front = nodes_at_border(nodes, level.stars);
-  for (int ring = 0; ring < rings; ++ring) {
-    front = next_ring(level.stars, front, reached);
-    for (const std::int64_t i : front) unknown.request_around(i);
+  std::vector<std::int64_t> ring;
+  for (std::int64_t i = 0; i < nodes.count; ++i)
+    if (nodes.owned(i)) ring.push_back(i);
+  for (int r = 0;; ++r) {
+    for (const std::int64_t i : ring) unknown.request_around(i);
+    if (r == rings) return unknown.boxes();
+    ring = next_ring(level.stars, ring, reached);
   }
-  return unknown.boxes();
 }
 
 // A box around nodes, and the largest of their d.
@@ -275,57 +261,23 @@ void request_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
   }
 }
 
-// Finds the stars of these nodes, as far as they are missing.
-void find_stars_of(Level<3>& level, const KnownRegion<3>& known,
-                   const std::vector<std::int64_t>& front, UnknownBoxes<3>& unknown) {
-  std::vector<char> wanted(static_cast<std::size_t>(level.nodes.count), 0);
-  std::vector<std::int32_t> more;
-  for (const std::int64_t i : front) {
-    if (level.stars.found(i)) continue;
-    wanted[static_cast<std::size_t>(i)] = 1;
-    more.push_back(static_cast<std::int32_t>(i));
-  }
-  add_lists_of(level, more);
-  if (!more.empty()) add_stars(level, known, wanted);
-  for (const std::int64_t i : front) unknown.request_around(i);
-}
-
-// Finds the stars of ghosts, ring by ring around owned nodes that have stars.
-void find_ghost_stars(Level<3>& level, const KnownRegion<3>& known, std::vector<std::int64_t> front,
-                      int rings, UnknownBoxes<3>& unknown) {
-  std::vector<char> reached = owned_nodes(level.nodes);
-  for (int ring = 1; ring <= rings; ++ring) {
-    front = next_ring(level.stars, front, reached);
-    find_stars_of(level, known, front, unknown);
-  }
-}
-
-// Finds stars near ghosts only, because a star in a volume is expensive: those of owned nodes
-// beside ghosts, then those of ghosts ring by ring. Nearly all requests for more ghosts come from
-// these.
-std::vector<Box<3>> find_border_stars(Level<3>& level, const KnownRegion<3>& known,
-                                      const std::vector<std::int64_t>& at_border,
-                                      const GhostStarDepth& zone, bool stored_stars_hold) {
-  begin_stars(level, known, stored_stars_hold);
+// Finds the stars of the owned nodes of a body on several ranks, and receives those of ghosts.
+// Returns the boxes that must be known for the required stars that are missing. Collective.
+std::vector<Box<3>> find_stars_of_body(Level<3>& level, const KnownRegion<3>& known,
+                                       const GhostStarDepth& zone, bool stored_stars_hold) {
   UnknownBoxes<3> unknown(level, known);
-  find_stars_of(level, known, at_border, unknown);
-  find_ghost_stars(level, known, at_border, zone.rings, unknown);
-  if (zone.reach > 0) request_pairs(level, known, zone.reach, unknown);
-  return unknown.boxes();
-}
-
-// Finds the stars of the remaining owned nodes. Where d is coarse for the shape, such a star may
-// contain a ghost that is not in the adjacency list; the stars of ghosts around it are then found
-// as well.
-std::vector<Box<3>> find_inner_stars(Level<3>& level, const KnownRegion<3>& known, int rings) {
-  const Nodes<3>& nodes = level.nodes;
-  const std::vector<char> wanted = owned_without_star(level);
-  find_owned_stars(level, known, wanted);
-  UnknownBoxes<3> unknown(level, known);
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    if (wanted[static_cast<std::size_t>(i)]) unknown.request_around(i);
-  find_ghost_stars(level, known, nodes_at_border(nodes, level.stars), rings, unknown);
-  return unknown.boxes();
+  collective_try(*level.comm, [&] {
+    build_stars(level, known, stored_stars_hold);
+    for (std::int64_t i = 0; i < level.nodes.count; ++i)
+      if (level.nodes.owned(i)) unknown.request_around(i);
+    if (zone.reach > 0) request_pairs(level, known, zone.reach, unknown);
+  });
+  const PhaseTimer timer(level.timers, Phase::stars);
+  receive_ghost_stars(level, zone.rings,
+                      [&](std::int64_t i, double reach) { unknown.request_around(i, reach); });
+  std::vector<Box<3>> boxes;
+  collective_try(*level.comm, [&] { boxes = unknown.boxes(); });
+  return boxes;
 }
 
 }  // namespace
@@ -368,13 +320,14 @@ std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
                    [&] { unknown = find_all_stars(level, known, zone.rings, stored_stars_hold); });
     return unknown;
   }
-  collective_try(*level.comm, [&] {
-    const std::vector<std::int64_t> at_border = nodes_at_border(level.nodes, level.lists());
-    unknown = find_border_stars(level, known, at_border, zone, stored_stars_hold);
-  });
-  if (level.comm->allreduce_sum(unknown.size()) > 0) return unknown;
-  collective_try(*level.comm, [&] { unknown = find_inner_stars(level, known, zone.rings); });
-  return unknown;
+  return find_stars_of_body(level, known, zone, stored_stars_hold);
+}
+
+bool keep_found_stars(Level<2>&) { return false; }
+bool keep_found_stars(Level<3>& level) {
+  if (level.geometry.kind() == GeometryKind::surface) return false;
+  collective_try(*level.comm, [&] { level.stars_before.take(level.nodes, level.stars); });
+  return true;
 }
 
 template void rebuild_stars(Level<2>&);

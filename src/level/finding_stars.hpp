@@ -26,6 +26,12 @@ std::vector<Box<2>> find_stars(Level<2>& level, const KnownRegion<2>& known,
 std::vector<Box<3>> find_stars(Level<3>& level, const KnownRegion<3>& known,
                                const GhostStarDepth& zone, bool stored_stars_hold);
 
+// Keeps the stars of the owned nodes that have been found, which remain valid when more ghosts are
+// known, for the next search. Returns whether it may use them. Call it before nodes are added. All
+// ranks must call it, and if one rank throws, all ranks throw.
+bool keep_found_stars(Level<2>& level);
+bool keep_found_stars(Level<3>& level);
+
 // Finds the stars of all nodes, on one rank.
 template <int Dim>
 void rebuild_stars(Level<Dim>& level);

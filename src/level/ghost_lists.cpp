@@ -13,6 +13,8 @@ ListsOf lists_of_stars(const Level<3>& level) {
   return level.geometry.kind() == GeometryKind::surface ? ListsOf::all_nodes : ListsOf::owned_nodes;
 }
 
+namespace {
+
 template <int Dim>
 void add_lists_of(Level<Dim>& level, const std::vector<std::int32_t>& nodes) {
   const PhaseTimer timer(level.timers, Phase::lists);
@@ -23,6 +25,8 @@ void add_lists_of(Level<Dim>& level, const std::vector<std::int32_t>& nodes) {
   level.neighbourhood.add_lists(level.nodes, level.geometry, *level.tree, more);
   level.timers.add(Phase::lists, {std::ssize(more), 0});
 }
+
+}  // namespace
 
 template <int Dim>
 void add_lists_around(Level<Dim>& level, const std::vector<std::int32_t>& nodes, int rings) {
@@ -37,8 +41,6 @@ void add_lists_around(Level<Dim>& level, const std::vector<std::int32_t>& nodes,
   }
 }
 
-template void add_lists_of(Level<2>&, const std::vector<std::int32_t>&);
-template void add_lists_of(Level<3>&, const std::vector<std::int32_t>&);
 template void add_lists_around(Level<2>&, const std::vector<std::int32_t>&, int);
 template void add_lists_around(Level<3>&, const std::vector<std::int32_t>&, int);
 

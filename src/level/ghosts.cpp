@@ -140,6 +140,42 @@ Bytes Ghosts<Dim>::nodes_for(const Message& asked, const LevelTree<Dim>& tree,
   return answer;
 }
 
+// Both sides of the plan have the nodes in the same order, so a request is an index in it.
+template <int Dim>
+std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
+    const Communicator& comm, const std::vector<char>& wanted,
+    FunctionRef<void(std::int32_t i, Bytes& bytes)> pack_data, std::exception_ptr failure) const {
+  const std::vector<int>& neighbours = halo_.neighbours();
+  std::vector<GhostData> received;
+  std::vector<Bytes> requests, answers;
+  attempt(failure, [&] {
+    received.resize(neighbours.size());
+    requests.resize(neighbours.size());
+    answers.resize(neighbours.size());
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      const std::vector<std::int32_t>& ghosts = halo_.received_from(neighbours[k]);
+      for (std::size_t g = 0; g < ghosts.size(); ++g) {
+        if (!wanted[static_cast<std::size_t>(ghosts[g])]) continue;
+        received[k].ghosts.push_back(ghosts[g]);
+        pack(requests[k], static_cast<std::int32_t>(g));
+      }
+    }
+  });
+  agree_on_failure(comm, failure);
+  requests = comm.exchange(neighbours, requests, nullptr);
+  failure = failure_of([&] {
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      const std::vector<std::int32_t>& sent = halo_.sent_to(neighbours[k]);
+      for_records<std::int32_t>({requests[k]}, [&](std::int32_t g) {
+        pack_data(sent[static_cast<std::size_t>(g)], answers[k]);
+      });
+    }
+  });
+  answers = comm.exchange(neighbours, answers, failure);
+  for (std::size_t k = 0; k < neighbours.size(); ++k) received[k].bytes.swap(answers[k]);
+  return received;
+}
+
 template class Ghosts<2>;
 template class Ghosts<3>;
 

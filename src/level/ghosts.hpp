@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <vector>
 
+#include "base/function_ref.hpp"
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 #include "comm/records.hpp"
@@ -15,6 +17,12 @@
 #include "settings/settings.hpp"
 
 namespace pnpbs {
+
+// Data of ghosts, from the rank that owns them.
+struct GhostData {
+  std::vector<std::int32_t> ghosts;
+  Bytes bytes;  // what the owner has packed for each of them, in this order
+};
 
 // The halo exchange of a level, and the state of its ghosts.
 template <int Dim>
@@ -57,6 +65,13 @@ class Ghosts {
     }
     return deliver<Record>(comm, outgoing);
   }
+
+  // Receives data of the ghosts for which `wanted` is set from their owners, which call
+  // pack_data(i, bytes) for these nodes. `failure` is the failure of this rank's preceding work, or
+  // null. All ranks must call it, and if one rank throws, all ranks throw.
+  std::vector<GhostData> receive_from_owners(
+      const Communicator& comm, const std::vector<char>& wanted,
+      FunctionRef<void(std::int32_t i, Bytes& bytes)> pack_data, std::exception_ptr failure) const;
 
   // Requires the next exchange to select the ghosts again.
   void invalidate() { hops_ = 0; }

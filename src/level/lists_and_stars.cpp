@@ -148,11 +148,13 @@ void make_stars(Level<Dim>& level, int hops, double radius, GhostStarDepth zone)
   const auto any = [&](const std::vector<Box<Dim>>& unknown) {
     return level.comm->allreduce_sum(unknown.size()) > 0;
   };
-  const bool none_moved = stars_hold(level);
+  bool stored_stars_hold = stars_hold(level);
   std::vector<Box<Dim>> unknown = unknown_to_lists(level, known, radius);
   if (any(unknown)) make_known(level, unknown, radius, known);
-  while (any(unknown = find_stars(level, known, zone, none_moved)))
+  while (any(unknown = find_stars(level, known, zone, stored_stars_hold))) {
+    stored_stars_hold = keep_found_stars(level);
     make_known(level, unknown, radius, known);
+  }
   level.stars_before.forget();
   level.unknown_uses += lists_beyond_known(level, known, radius);
 }

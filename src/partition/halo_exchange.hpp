@@ -61,8 +61,11 @@ class HaloExchange {
   }
   bool knows(int rank) const { return places_.of(rank) >= 0; }
   std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
+  const std::vector<int>& neighbours() const { return neighbours_; }
   // Returns the owned nodes that `rank` has as ghosts.
   const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
+  // Returns the ghosts that `rank` owns. In a built plan they have the order of sent_to() there.
+  const std::vector<std::int32_t>& received_from(int rank) const { return receive_[place(rank)]; }
   // Calls visit(rank) for each rank that has the owned node as a ghost.
   template <class Visit>
   void for_ranks_with(const Nodes<Dim>& nodes, std::int32_t node, const Visit& visit) const {

@@ -75,10 +75,10 @@ class Laws:
 
     def counted(self, owned, ranks):
         """Returns the seconds for ghosts by the laws of what is counted. Forces and motion involve
-        owned nodes only. Phases that are not counted are assumed to grow like stars, which grow
-        most."""
-        layers = {phase: self.layers["stars"] for phase in self.phases}
-        layers.update(motion=0, lists=self.layers["lists"], sweeps=self.layers["sweeps"])
+        owned nodes only. Phases that are not counted are assumed to grow like the counted phase
+        that grows most."""
+        layers = {phase: max(self.layers.values()) for phase in self.phases}
+        layers.update(motion=0, **self.layers)
         return owned * sum(seconds * (growth(layers[phase], owned, ranks) - 1)
                            for phase, seconds in self.phases.items())
 

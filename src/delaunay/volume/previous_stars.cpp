@@ -284,7 +284,8 @@ std::vector<char> PreviousStars::put_in_place(const Places& places, const Keeps&
   }
   stars.replace(kept, [&](std::int64_t i, std::vector<std::int32_t>& out) {
     const std::int32_t k = places.before[index(i)];
-    stars_.copy_star(k, places.now, out);
+    VolumeStars::renumber(
+        stars_.row(k), [&](std::int32_t j) { return places.now[index(j)]; }, out);
     if (uses.was_last(k)) stars_.drop_chunk(k / VolumeStars::kChunk);
   });
   forget();
@@ -316,11 +317,11 @@ void PreviousStars::find_stars(const VolumeStarInput& input, std::vector<char> w
   give_up(doubted(input, stars, kept));
   for (std::size_t i = 0; i < kept.size(); ++i) wanted[i] = wanted[i] && !kept[i];
   stars.add(input, wanted);
-  // Compare with all stars that are complete, including those found earlier.
+  // Compare with all other stars, including those found earlier. A star that cannot be found yet is
+  // empty, so the kept stars that contain its node are found again.
   std::vector<char> found(kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const auto node = static_cast<std::int64_t>(i);
-    found[i] = input.nodes.owned(node) && !kept[i] && stars.needs(node) == 0;
+    found[i] = nodes.owned(static_cast<std::int64_t>(i)) && !kept[i];
   }
   while (any_set(found)) {
     wanted = contradicted(input, stars, kept, found);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <iterator>
 
 #include "delaunay/listed_reach.hpp"
 #include "delaunay/volume/agreed_triangles.hpp"
@@ -302,16 +301,6 @@ void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wan
 void VolumeStars::doubt(const std::vector<char>& doubtful) {
   if (found_.empty()) found_.assign(doubtful.size(), 1);
   for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = found_[i] && !doubtful[i];
-}
-
-void VolumeStars::copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
-                            std::vector<std::int32_t>& out) const {
-  const Star star = star_of(i);
-  const auto now = [&](std::int32_t j) { return place[static_cast<std::size_t>(j)]; };
-  const std::int32_t* const triangles = star.first + star.neighbours;
-  out.push_back(header(static_cast<std::size_t>(star.neighbours), star.closed));
-  std::transform(star.first, star.wide ? star.last : triangles, std::back_inserter(out), now);
-  if (!star.wide) out.insert(out.end(), triangles, star.last);
 }
 
 // Stores the stars of surfaces alone as a header, the neighbours, and two nodes for each triangle.

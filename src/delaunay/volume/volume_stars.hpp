@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/chunked_rows.hpp"
@@ -124,10 +125,17 @@ class VolumeStars {
     return !star.wide &&
            std::find(star.first + star.neighbours, star.last, pack(places)) != star.last;
   }
-  // Appends the star of node i to `out` for nodes in another order, in which node j has index
-  // place[j].
-  void copy_star(std::int64_t i, const std::vector<std::int32_t>& place,
-                 std::vector<std::int32_t>& out) const;
+  // Returns the star of node i in the format described below.
+  std::span<const std::int32_t> row(std::int64_t i) const { return rows_.row(i); }
+  // Appends a star of tetrahedra to `out`, in which number(j) replaces node j.
+  template <class Node, class Number, class Out>
+  static void renumber(std::span<const Node> row, const Number& number, std::vector<Out>& out) {
+    const auto n = static_cast<std::int32_t>(row[0] / 2);
+    const auto nodes = n > kMaxPlaces ? row.size() : static_cast<std::size_t>(n + 1);
+    out.push_back(static_cast<Out>(row[0]));
+    for (std::size_t k = 1; k < nodes; ++k) out.push_back(number(row[k]));
+    for (std::size_t k = nodes; k < row.size(); ++k) out.push_back(static_cast<Out>(row[k]));
+  }
 
   // Frees the stars of the kChunk nodes from c * kChunk on.
   void drop_chunk(std::int64_t c) { rows_.drop_chunk(c); }
