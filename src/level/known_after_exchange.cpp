@@ -2,6 +2,7 @@
 #include "level/known_after_exchange.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pnpbs {
@@ -19,7 +20,7 @@ KnownRegion<Dim> known_after_exchange(Level<Dim>& level, int hops) {
         if (r == level.comm->rank()) known[static_cast<std::size_t>(leaf)] = 1;
       });
   }
-  return KnownRegion<Dim>(tree.tree(), known);
+  return KnownRegion<Dim>(tree.tree(), std::move(known));
 }
 
 template KnownRegion<2> known_after_exchange(Level<2>&, int);

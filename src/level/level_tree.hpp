@@ -40,7 +40,7 @@ class LevelTree {
   const SizedTree<Dim>& map() const { return map_; }
   const BackgroundTree<Dim>& tree() const { return map_.tree(); }
   // Returns the pairs of leaves that interact.
-  const std::shared_ptr<const LeafLinks<Dim>>& links() const { return links_; }
+  const std::shared_ptr<const LeafGraph<Dim>>& links() const { return links_; }
   const Distribution<Dim>& distribution() const { return distribution_; }
   bool owns(std::int32_t leaf) const { return distribution_.owns(leaf); }
   // Returns the rank that owns this point.
@@ -70,7 +70,7 @@ class LevelTree {
   const Communicator& comm_;
   const LevelGeometry<Dim>& geometry_;
   SizedTree<Dim> map_;
-  std::shared_ptr<const LeafLinks<Dim>> links_;
+  std::shared_ptr<const LeafGraph<Dim>> links_;
   Distribution<Dim> distribution_;
   int hops_ = 0;
 };

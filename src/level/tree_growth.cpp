@@ -140,7 +140,7 @@ void LevelTree<Dim>::link_leaves(const Settings& settings) {
       stretch.push_back(
           embedding.max_stretch_in(map_.tree().cell_box(map_.tree().leaf_cell(leaf))));
   links_ =
-      std::make_shared<const LeafLinks<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
+      std::make_shared<const LeafGraph<Dim>>(map_.tree(), std::move(reach), std::move(stretch));
 }
 
 // Refines the tree wherever own nodes and ghosts can be. Only the refined tree shows what lies

@@ -90,7 +90,7 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
                                    double radius) {
   const std::int32_t buckets = tree.leaf_count();
   if (!links_)
-    links_ = std::make_shared<const LeafLinks<Dim>>(
+    links_ = std::make_shared<const LeafGraph<Dim>>(
         tree, std::vector<double>(static_cast<std::size_t>(buckets), 0));
   min_.resize(static_cast<std::size_t>(buckets));
   for_each("pnpbs::Buckets::gather_spacings", buckets, [&](std::int64_t b) {
@@ -106,15 +106,15 @@ void Buckets<Dim>::gather_spacings(const BackgroundTree<Dim>& tree, const Nodes<
   };
   const double grown = max_of("pnpbs::Buckets::grown", buckets, 0.0, [&](std::int64_t b) {
     const auto bucket = static_cast<std::int32_t>(b);
-    return radius * max_in(bucket) > links_->reach[index(bucket)] ? 1.0 : 0.0;
+    return radius * max_in(bucket) > links_->reach(bucket) ? 1.0 : 0.0;
   });
   if (grown == 0) return;
-  std::vector<double> reach = links_->reach;
+  std::vector<double> reach = links_->reaches();
   for (std::int32_t b = 0; b < buckets; ++b) {
     const double max = radius * max_in(b);
     if (max > reach[index(b)]) reach[index(b)] = max * kRoomForGrowth;
   }
-  links_ = std::make_shared<const LeafLinks<Dim>>(tree, std::move(reach), links_->stretch);
+  links_ = std::make_shared<const LeafGraph<Dim>>(tree, std::move(reach), links_->stretches());
 }
 
 template class Buckets<2>;

@@ -29,7 +29,7 @@ class Buckets {
   const View<std::int32_t>& order() const { return from_; }
 
   // Must be called after the tree has changed. `links` are the links of its leaves.
-  void reset(std::shared_ptr<const LeafLinks<Dim>> links) {
+  void reset(std::shared_ptr<const LeafGraph<Dim>> links) {
     links_ = std::move(links);
     known_ = 0;
   }
@@ -50,7 +50,7 @@ class Buckets {
   // order.
   template <class Visit>
   void for_neighbours(std::int32_t bucket, const Visit& visit) const {
-    links_->graph.for_neighbours(bucket, visit);
+    links_->for_neighbours(bucket, visit);
   }
 
   // Returns the smallest spacing of the nodes in a bucket, or infinity if it is empty.
@@ -67,7 +67,7 @@ class Buckets {
   std::int64_t known_ = 0;           // number of leading nodes with an entry in bucket_of_
   std::vector<std::int32_t> start_;  // index of the first node of each bucket
   std::vector<double> min_;          // smallest d in each bucket
-  std::shared_ptr<const LeafLinks<Dim>> links_;
+  std::shared_ptr<const LeafGraph<Dim>> links_;
   View<std::int32_t> from_;
 };
 

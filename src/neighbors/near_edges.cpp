@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "geometry/plane/segments.hpp"
+#include "tree/hop_search.hpp"
 
 namespace pnpbs {
 
-void NearEdges::prepare(const SizedTree<2>& map, const LeafLinks<2>& links, double radius) {
+void NearEdges::prepare(const SizedTree<2>& map, const LeafGraph<2>& links, double radius) {
   radius_ = radius;
   at_boundary_nodes_.assign(map.boundary().nodes.size(), {});
   const std::int32_t leaves = map.tree().leaf_count();
@@ -20,26 +21,32 @@ void NearEdges::prepare(const SizedTree<2>& map, const LeafLinks<2>& links, doub
     low_[k].clear();
     high_[k].clear();
   }
-  std::vector<std::int32_t> near;
+  std::vector<std::int32_t> near, with_edges;
+  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+    if (map.leaf_has_facets(leaf)) with_edges.push_back(leaf);
+  const std::vector<std::int32_t> to_edges = hops_from(links, with_edges, 1);
   for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
     const double reach = kRoomForGrowth * radius * map.leaf_max_spacing(leaf);
     leaf_reach_[static_cast<std::size_t>(leaf)] = reach;
-    gather_near(map, links, leaf, near);
+    near.clear();
+    if (reach > links.reach(leaf) || to_edges[static_cast<std::size_t>(leaf)] <= 1)
+      gather_near(map, links, leaf, near);
     leaf_edges_.insert(leaf_edges_.end(), near.begin(), near.end());
     for (std::int32_t e : near) add_box(map.corners(e)[0], map.corners(e)[1], reach);
     leaf_offset_.push_back(static_cast<std::int32_t>(leaf_edges_.size()));
   }
 }
 
-// Returns all edges within the search radius of a leaf, and possibly more, sorted by number.
-void NearEdges::gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
+// Appends all edges within the search radius of a leaf, and possibly more, sorted by number.
+void NearEdges::gather_near(const SizedTree<2>& map, const LeafGraph<2>& links, std::int32_t leaf,
                             std::vector<std::int32_t>& near) const {
-  near.clear();
   const double reach = leaf_reach_[static_cast<std::size_t>(leaf)];
-  if (reach <= links.reach[static_cast<std::size_t>(leaf)]) {
-    links.graph.for_neighbours(leaf, [&](std::int32_t other) {
-      for (const std::int32_t e : map.facets_of_leaf(other)) near.push_back(e);
-    });
+  if (reach <= links.reach(leaf)) {
+    links.search_neighbours(
+        leaf, [](std::int32_t) { return true; },
+        [&](std::int32_t other) {
+          for (const std::int32_t e : map.facets_of_leaf(other)) near.push_back(e);
+        });
   } else {
     const std::int32_t cell = map.tree().leaf_cell(leaf);
     const double half_diagonal = 0.7072 * map.tree().cell_side(cell);

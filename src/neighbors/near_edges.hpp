@@ -21,7 +21,7 @@ namespace pnpbs {
 class NearEdges {
  public:
   // Finds the edges near each leaf. Called once per level. `links` are the links of the leaves.
-  void prepare(const SizedTree<2>& map, const LeafLinks<2>& links, double radius);
+  void prepare(const SizedTree<2>& map, const LeafGraph<2>& links, double radius);
 
   // Finds the edges within radius * d_i of each node at its position in `at`. Called at every
   // rebuild of the lists. During a run, `at` has the positions of the last event, so that the
@@ -99,7 +99,7 @@ class NearEdges {
     double beyond = 0;  // distance of the nearest edge or node of the boundary but its own
     std::vector<std::int32_t> edges;
   };
-  void gather_near(const SizedTree<2>& map, const LeafLinks<2>& links, std::int32_t leaf,
+  void gather_near(const SizedTree<2>& map, const LeafGraph<2>& links, std::int32_t leaf,
                    std::vector<std::int32_t>& near) const;
   void add_box(const Point<2>& a, const Point<2>& b, double reach);
 

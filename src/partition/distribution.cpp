@@ -3,116 +3,16 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "base/fixed_point.hpp"
 #include "partition/cell_sums.hpp"
 #include "tree/box_tree.hpp"
+#include "tree/hop_search.hpp"
 
 namespace pnpbs {
-
-namespace {
-
-// The ranks that need the nodes of each leaf as ghosts. Each call of spread() adds one hop: a rank
-// that needs a leaf needs its neighbours, too.
-template <int Dim>
-class Needs {
- public:
-  Needs(const LeafGraph<Dim>& graph, const Distribution<Dim>& distribution, std::int32_t leaves)
-      : graph_(graph), distribution_(distribution), others_(static_cast<std::size_t>(leaves)) {
-    // Start with the leaves that have a neighbour of another holder.
-    std::vector<char> at_rim(others_.size(), 0);
-    for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-      if (distribution.holds(leaf)) continue;
-      graph.for_neighbours(leaf, [&](std::int32_t other) {
-        if (distribution.holder(other) == distribution.holder(leaf)) return;
-        for (const std::int32_t end : {leaf, other}) {
-          if (at_rim[static_cast<std::size_t>(end)] || distribution.holder(end) < 0) continue;
-          at_rim[static_cast<std::size_t>(end)] = 1;
-          front_.emplace_back(end, distribution.holder(end));
-        }
-      });
-    }
-  }
-
-  void spread() {
-    std::vector<std::pair<std::int32_t, std::int32_t>> next;
-    for (const auto& [leaf, rank] : front_)
-      graph_.for_neighbours(leaf, [&, r = rank](std::int32_t other) {
-        std::vector<std::int32_t>& ranks = others_[static_cast<std::size_t>(other)];
-        if (distribution_.holder(other) == r) return;
-        if (std::find(ranks.begin(), ranks.end(), r) != ranks.end()) return;
-        ranks.push_back(r);
-        next.emplace_back(other, r);
-      });
-    front_ = std::move(next);
-  }
-
-  // Returns the ranks besides the holder that need the leaf, in increasing order.
-  const std::vector<std::int32_t>& of(std::size_t leaf) {
-    std::sort(others_[leaf].begin(), others_[leaf].end());
-    return others_[leaf];
-  }
-
- private:
-  const LeafGraph<Dim>& graph_;
-  const Distribution<Dim>& distribution_;
-  std::vector<std::vector<std::int32_t>> others_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> front_;  // leaf and rank of the last hop
-};
-
-// Leaves of a tree that a search has not found yet, counted for each cell that contains them.
-template <int Dim>
-class UnfoundLeaves {
- public:
-  explicit UnfoundLeaves(const BackgroundTree<Dim>& tree)
-      : tree_(tree),
-        parent_(static_cast<std::size_t>(tree.cell_count()), -1),
-        left_(static_cast<std::size_t>(tree.cell_count()), 0) {
-    for (std::int32_t c = 0; c < tree.cell_count(); ++c)
-      for (int k = 0; tree.cell(c).first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
-        parent_[static_cast<std::size_t>(tree.cell(c).first_child + k)] = c;
-    for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) add_from(leaf, 1);
-  }
-
-  bool any_in(std::int32_t cell) const { return left_[static_cast<std::size_t>(cell)] > 0; }
-  bool found(std::int32_t leaf) const { return !any_in(tree_.leaf_cell(leaf)); }
-  void find(std::int32_t leaf) {
-    if (!found(leaf)) add_from(leaf, -1);
-  }
-
- private:
-  void add_from(std::int32_t leaf, std::int32_t more) {
-    for (std::int32_t c = tree_.leaf_cell(leaf); c >= 0; c = parent_[static_cast<std::size_t>(c)])
-      left_[static_cast<std::size_t>(c)] += more;
-  }
-
-  const BackgroundTree<Dim>& tree_;
-  std::vector<std::int32_t> parent_, left_;
-};
-
-// Returns `leaves` and the leaves within `hops` hops of them. Marks all of them in `reached`.
-template <int Dim>
-std::vector<std::int32_t> reached_from(const LeafGraph<Dim>& graph,
-                                       std::vector<std::int32_t> leaves, int hops,
-                                       std::vector<char>& reached) {
-  for (std::int32_t leaf : leaves) reached[static_cast<std::size_t>(leaf)] = 1;
-  std::size_t first = 0;  // first leaf that the last hop reached
-  for (int hop = 0; hop < hops; ++hop) {
-    const std::size_t last = leaves.size();
-    for (std::size_t k = first; k < last; ++k)
-      graph.for_neighbours(leaves[k], [&](std::int32_t other) {
-        if (reached[static_cast<std::size_t>(other)]) return;
-        reached[static_cast<std::size_t>(other)] = 1;
-        leaves.push_back(other);
-      });
-    first = last;
-  }
-  return leaves;
-}
-
-}  // namespace
 
 // Searches in boxes and not in a graph of all cells, of which a rank needs only a small part if
 // there are many ranks.
@@ -159,21 +59,22 @@ void Distribution<Dim>::take_leaves(const BackgroundTree<Dim>* tree,
     cell_of_leaf_.push_back(cells_.at(tree->cell_centre(tree->leaf_cell(leaf))));
 }
 
-// Returns for each leaf the largest reach of a bubble within `hops` hops. Only the entries of
-// `leaves` and of what lies within the hops around them are valid.
+// Returns for each leaf the largest reach of a bubble within `hops` hops. Valid for the leaves
+// within `hops` hops of those that this rank holds. `from_own` has the number of hops from these,
+// up to 2 * hops.
 template <int Dim>
-std::vector<double> Distribution<Dim>::reach_within(int hops,
-                                                    std::vector<std::int32_t> leaves) const {
-  std::vector<char> reached(cell_of_leaf_.size(), 0);
-  leaves = reached_from(links_->graph, std::move(leaves), hops, reached);
-  std::vector<double> max_reach = links_->reach, before;
+std::vector<double> Distribution<Dim>::reach_within(
+    int hops, const std::vector<std::int32_t>& from_own) const {
+  std::vector<double> max_reach = links_->reaches();
   for (int hop = 0; hop < hops; ++hop) {
-    before = max_reach;
-    for (std::int32_t leaf : leaves)
-      links_->graph.for_neighbours(leaf, [&](std::int32_t other) {
-        double& max = max_reach[static_cast<std::size_t>(leaf)];
-        max = std::max(max, before[static_cast<std::size_t>(other)]);
-      });
+    const std::vector<double> before = max_reach, in_cells = max_in_cells(*tree_, before);
+    for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf) {
+      if (from_own[static_cast<std::size_t>(leaf)] >= 2 * hops - hop) continue;
+      double& max = max_reach[static_cast<std::size_t>(leaf)];
+      links_->search_neighbours(
+          leaf, [&](std::int32_t cell) { return in_cells[static_cast<std::size_t>(cell)] > max; },
+          [&](std::int32_t other) { max = before[static_cast<std::size_t>(other)]; });
+    }
   }
   return max_reach;
 }
@@ -182,16 +83,10 @@ std::vector<double> Distribution<Dim>::reach_within(int hops,
 // empty.
 template <int Dim>
 std::vector<char> Distribution<Dim>::cells_with_some_of(int rank) const {
-  const BackgroundTree<Dim>& tree = cells_.tree();
-  std::vector<char> some(static_cast<std::size_t>(tree.cell_count()), 0);
-  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {  // children come after their parent
-    const auto at = static_cast<std::size_t>(c);
-    const auto& cell = tree.cell(c);
-    if (cell.first_child < 0) some[at] = owner_of_cell(cell.leaf) == rank && !empty(cell.leaf);
-    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
-      some[at] |= some[static_cast<std::size_t>(cell.first_child + k)];
-  }
-  return some;
+  std::vector<char> some;
+  for (std::int32_t c = 0; c < cells_.count(); ++c)
+    some.push_back(owner_of_cell(c) == rank && !empty(c));
+  return max_in_cells(cells_.tree(), some);
 }
 
 // Returns whether a cell marked in `some`, see cells_with_some_of(), is within `way` of the box.
@@ -209,69 +104,92 @@ bool Distribution<Dim>::near(const Box<Dim>& box, const std::vector<char>& some,
 }
 
 template <int Dim>
-std::vector<char> Distribution<Dim>::leaves_within(int hops) const {
-  const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
-  std::vector<char> reached(static_cast<std::size_t>(leaves), 0);
+std::vector<std::int32_t> Distribution<Dim>::hops_from_own(int hops) const {
   std::vector<std::int32_t> own;
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
+  for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf)
     if (holds(leaf)) own.push_back(leaf);
-  reached_from(links_->graph, std::move(own), hops, reached);
-  return reached;
+  return hops_from(*links_, own, hops);
 }
 
 template <int Dim>
 std::vector<std::int32_t> Distribution<Dim>::unrefined_within(int hops) const {
-  const std::vector<char> reached = leaves_within(hops);
+  const std::vector<std::int32_t> from_own = hops_from_own(hops);
   std::set<std::int32_t> found;
-  for (std::int32_t leaf = 0; leaf < static_cast<std::int32_t>(reached.size()); ++leaf)
-    if (reached[static_cast<std::size_t>(leaf)] && !refined(leaf)) found.insert(cell_of(leaf));
+  for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf)
+    if (from_own[static_cast<std::size_t>(leaf)] <= hops && !refined(leaf))
+      found.insert(cell_of(leaf));
   return {found.begin(), found.end()};
+}
+
+// Returns the leaves of other ranks within `hops` hops of those of this rank, by rank.
+template <int Dim>
+std::map<int, std::vector<std::int32_t>> Distribution<Dim>::near_leaves_of_others(
+    int hops, const std::vector<std::int32_t>& from_own) const {
+  std::map<int, std::vector<std::int32_t>> leaves_of;
+  for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf)
+    if (from_own[static_cast<std::size_t>(leaf)] <= hops && holder(leaf) >= 0 && !holds(leaf))
+      leaves_of[holder(leaf)].push_back(leaf);
+  return leaves_of;
 }
 
 template <int Dim>
 const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   const auto known = halos_.find(hops);
   if (known != halos_.end()) return known->second;
-  const auto leaves = static_cast<std::int32_t>(cell_of_leaf_.size());
-  Needs<Dim> needs(links_->graph, *this, leaves);
-  for (int hop = 0; hop < hops; ++hop) needs.spread();
-  std::vector<std::int32_t> needed;
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf)
-    if (!needs.of(static_cast<std::size_t>(leaf)).empty()) needed.push_back(leaf);
-  const std::vector<double> reach = reach_within(hops, std::move(needed));
-  std::map<std::int32_t, std::vector<char>> cells_of;  // cells_with_some_of() for each rank
-  const auto cells_with_some = [&](std::int32_t rank) -> const std::vector<char>& {
-    std::vector<char>& some = cells_of[rank];
-    if (some.empty()) some = cells_with_some_of(rank);
-    return some;
-  };
+  const std::vector<std::int32_t> from_own = hops_from_own(2 * hops);
+  const std::vector<double> reach = reach_within(hops, from_own);
+  const auto hops_to = [&](std::int32_t leaf) { return from_own[static_cast<std::size_t>(leaf)]; };
   Halo halo;
-  halo.offset_.push_back(0);
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    const Box<Dim> box = tree_->cell_box(tree_->leaf_cell(leaf));
-    for (std::int32_t rank : needs.of(static_cast<std::size_t>(leaf)))
-      if (holder(leaf) >= 0 && near(box, cells_with_some(rank),
-                                    hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
-        halo.ranks_.push_back(rank);
-    halo.offset_.push_back(static_cast<std::int32_t>(halo.ranks_.size()));
+  std::vector<std::pair<std::int32_t, std::int32_t>> needs;  // a leaf and a rank that needs it
+  const auto add = [&](std::int32_t leaf, int rank, const std::vector<char>& cells_with_some) {
+    if (holder(leaf) >= 0 && holder(leaf) != rank &&
+        near(tree_->cell_box(tree_->leaf_cell(leaf)), cells_with_some,
+             hops * hop_share * reach[static_cast<std::size_t>(leaf)]))
+      needs.emplace_back(leaf, rank);
+  };
+  const std::vector<char> cells_with_own = cells_with_some_of(rank_);
+  for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf)
+    if (hops_to(leaf) <= hops) add(leaf, rank_, cells_with_own);
+  // A leaf between this rank and another one matters only if a path of the other's ghosts to the
+  // leaves around the own ones can pass through it.
+  HopSearch<Dim> search(*links_, [&](std::int32_t leaf) { return hops_to(leaf) <= hops; });
+  for (const auto& [rank, leaves] : near_leaves_of_others(hops + 1, from_own)) {
+    halo.neighbours_.push_back(rank);
+    const std::vector<char> some = cells_with_some_of(rank);
+    search.run(leaves, hops, [&, r = rank](std::int32_t leaf, int hop) {
+      if (hops_to(leaf) <= 1) add(leaf, r, some);
+      return hops_to(leaf) + hop <= hops + 1;
+    });
   }
-  // A leaf that another rank holds or needs is not interior, nor are its neighbours.
-  halo.interior_.assign(static_cast<std::size_t>(leaves), 1);
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    const auto at = static_cast<std::size_t>(leaf);
-    if (holder(leaf) < 0 || (holds(leaf) && halo.offset_[at] == halo.offset_[at + 1])) continue;
-    links_->graph.for_neighbours(
-        leaf, [&](std::int32_t other) { halo.interior_[static_cast<std::size_t>(other)] = 0; });
+  std::sort(needs.begin(), needs.end());
+  halo.offset_.assign(static_cast<std::size_t>(tree_->leaf_count()) + 1, 0);
+  for (const auto& [leaf, rank] : needs) {
+    ++halo.offset_[static_cast<std::size_t>(leaf) + 1];
+    halo.ranks_.push_back(rank);
   }
-  needs.spread();
-  std::set<int> neighbours;
-  for (std::int32_t leaf = 0; leaf < leaves; ++leaf) {
-    if (!holds(leaf)) continue;
-    const std::vector<std::int32_t>& ranks = needs.of(static_cast<std::size_t>(leaf));
-    neighbours.insert(ranks.begin(), ranks.end());
-  }
-  halo.neighbours_.assign(neighbours.begin(), neighbours.end());
+  std::partial_sum(halo.offset_.begin(), halo.offset_.end(), halo.offset_.begin());
+  find_interior(halo, from_own);
   return halos_.emplace(hops, std::move(halo)).first->second;
+}
+
+// A leaf that another rank holds or needs is not interior, nor are its neighbours.
+template <int Dim>
+void Distribution<Dim>::find_interior(Halo& halo, const std::vector<std::int32_t>& from_own) const {
+  const auto leaves = static_cast<std::size_t>(tree_->leaf_count());
+  std::vector<std::int32_t> exchanged;
+  halo.interior_.assign(leaves, 0);
+  for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+    const int by = holder(static_cast<std::int32_t>(leaf));
+    if (from_own[leaf] <= 2 && by >= 0 &&
+        (by != rank_ || halo.offset_[leaf] < halo.offset_[leaf + 1]))
+      exchanged.push_back(static_cast<std::int32_t>(leaf));
+    else
+      halo.interior_[leaf] = from_own[leaf] <= 1;
+  }
+  HopSearch<Dim>(*links_).run(exchanged, 1, [&](std::int32_t leaf, int) {
+    halo.interior_[static_cast<std::size_t>(leaf)] = 0;
+    return true;
+  });
 }
 
 template <int Dim>

@@ -19,8 +19,9 @@ namespace pnpbs {
 // Ghost layers of one depth, which is counted in hops of the leaf graph.
 class Halo {
  public:
-  // Calls visit(rank) for each other rank that needs the nodes of the leaf as ghosts, because it
-  // holds a leaf within the depth. Valid for the leaves of this rank and those near them.
+  // Calls visit(rank) for each rank besides the holder that needs the nodes of the leaf as ghosts,
+  // because it holds a leaf within the depth. Valid for the leaves of this rank and those within a
+  // hop of them. For leaves farther away only this rank is visited.
   template <class Visit>
   void for_ranks(std::int32_t leaf, const Visit& visit) const {
     for (std::int32_t k = offset_[static_cast<std::size_t>(leaf)];
@@ -29,7 +30,7 @@ class Halo {
   }
   // Returns whether the leaf and all that interact with it are held by this rank or empty, and no
   // other rank needs them. Nodes of such a leaf take no part in an exchange, even if they drift
-  // into a neighbour.
+  // into a neighbour. False for leaves more than a hop away from those of this rank.
   bool interior(std::int32_t leaf) const { return interior_[static_cast<std::size_t>(leaf)] != 0; }
   // Ranks to exchange messages with. The relation is symmetric. It covers one hop more than the
   // depth, because nodes drift out of their leaves between exchanges.
@@ -76,7 +77,7 @@ class Distribution {
 
   // --- valid once the tree is refined in the marked cells ---
   void take_leaves(const BackgroundTree<Dim>* tree, const std::vector<char>& refined);
-  void link_leaves(std::shared_ptr<const LeafLinks<Dim>> links) { links_ = std::move(links); }
+  void link_leaves(std::shared_ptr<const LeafGraph<Dim>> links) { links_ = std::move(links); }
   bool cell_refined(std::int32_t cell) const {
     return refined_[static_cast<std::size_t>(cell)] != 0;
   }
@@ -89,8 +90,9 @@ class Distribution {
   // Returns the rank that holds the nodes in the leaf, or -1 if the leaf is outside the domain.
   int holder(std::int32_t leaf) const { return empty(cell_of(leaf)) ? -1 : owner(leaf); }
   bool holds(std::int32_t leaf) const { return holder(leaf) == rank_; }
-  // Marks the leaves within `hops` hops of those that this rank holds.
-  std::vector<char> leaves_within(int hops) const;
+  // Returns for each leaf the number of hops to the nearest leaf that this rank holds, or
+  // kUnreached if it is larger than `hops`.
+  std::vector<std::int32_t> hops_from_own(int hops) const;
   // Returns the cells with leaves within `hops` hops in which the tree is not refined.
   std::vector<std::int32_t> unrefined_within(int hops) const;
   // Returns the halo of this depth, which is built on first use and kept. A hop ends at the far
@@ -111,12 +113,15 @@ class Distribution {
   int rank_ = 0;
 
   const BackgroundTree<Dim>* tree_ = nullptr;
-  std::shared_ptr<const LeafLinks<Dim>> links_;  // graph of interacting leaves
+  std::shared_ptr<const LeafGraph<Dim>> links_;
   std::vector<std::int32_t> cell_of_leaf_;
   std::vector<char> refined_;  // by cell
   std::map<int, Halo> halos_;
 
-  std::vector<double> reach_within(int hops, std::vector<std::int32_t> leaves) const;
+  std::vector<double> reach_within(int hops, const std::vector<std::int32_t>& from_own) const;
+  std::map<int, std::vector<std::int32_t>> near_leaves_of_others(
+      int hops, const std::vector<std::int32_t>& from_own) const;
+  void find_interior(Halo& halo, const std::vector<std::int32_t>& from_own) const;
   std::vector<char> cells_with_some_of(int rank) const;
   bool near(const Box<Dim>& box, const std::vector<char>& some, double way) const;
 };

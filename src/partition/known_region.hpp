@@ -18,7 +18,7 @@ class KnownRegion {
   KnownRegion() = default;  // everywhere
   // Marks as known the leaves whose nodes this rank has, and the leaves outside the domain, which
   // have no nodes.
-  KnownRegion(const BackgroundTree<Dim>& tree, const std::vector<char>& known_leaves);
+  KnownRegion(const BackgroundTree<Dim>& tree, std::vector<char> known_leaves);
 
   bool is_everywhere() const { return unknown_in_.empty(); }
   // Returns whether a leaf in this cell of the tree is unknown. Leaves that are covered by several
@@ -80,17 +80,9 @@ class KnownRegion {
 };
 
 template <int Dim>
-KnownRegion<Dim>::KnownRegion(const BackgroundTree<Dim>& tree,
-                              const std::vector<char>& known_leaves)
-    : unknown_in_(static_cast<std::size_t>(tree.cell_count()), 0) {
-  // Children come after their parents in the tree.
-  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {
-    const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
-    char& unknown = unknown_in_[static_cast<std::size_t>(c)];
-    if (cell.first_child < 0) unknown = !known_leaves[static_cast<std::size_t>(cell.leaf)];
-    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
-      unknown = unknown || unknown_in_[static_cast<std::size_t>(cell.first_child + k)];
-  }
+KnownRegion<Dim>::KnownRegion(const BackgroundTree<Dim>& tree, std::vector<char> known_leaves) {
+  for (char& known : known_leaves) known = !known;
+  unknown_in_ = max_in_cells(tree, known_leaves);
 }
 
 }  // namespace pnpbs

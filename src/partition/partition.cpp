@@ -177,9 +177,8 @@ struct CellExtent {
 template <int Dim>
 CellGraph cell_graph(const PartitionCells<Dim>& cells) {
   const BackgroundTree<Dim>& tree = cells.tree();
-  LeafGraph<Dim> touching;
-  touching.build(tree, std::vector<double>(static_cast<std::size_t>(cells.count()),
-                                           std::ldexp(tree.side(), -40)));
+  const LeafGraph<Dim> touching(tree, std::vector<double>(static_cast<std::size_t>(cells.count()),
+                                                          std::ldexp(tree.side(), -40)));
   CellGraph result;
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(cells.count()), -1);
   for (std::int32_t c = 0; c < cells.count(); ++c) {

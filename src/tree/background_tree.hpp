@@ -247,4 +247,18 @@ class BackgroundTree {
   std::vector<std::int32_t> leaves_;
 };
 
+// Returns for each cell of the tree the largest value of the leaves in it. T is not negative.
+template <int Dim, class T>
+std::vector<T> max_in_cells(const BackgroundTree<Dim>& tree, const std::vector<T>& of_leaves) {
+  std::vector<T> max(static_cast<std::size_t>(tree.cell_count()), T{});
+  for (std::int32_t c = tree.cell_count() - 1; c >= 0; --c) {  // children come after their parent
+    const typename BackgroundTree<Dim>::Cell& cell = tree.cell(c);
+    T& value = max[static_cast<std::size_t>(c)];
+    if (cell.first_child < 0) value = of_leaves[static_cast<std::size_t>(cell.leaf)];
+    for (int k = 0; cell.first_child >= 0 && k < BackgroundTree<Dim>::kChildren; ++k)
+      value = std::max(value, max[static_cast<std::size_t>(cell.first_child + k)]);
+  }
+  return max;
+}
+
 }  // namespace pnpbs

@@ -1,115 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Graph of the interacting leaves of the background tree: two leaves are neighbours if one of them
-// reaches the other. The rows are compressed, and each leaf is its own neighbour.
+// reaches the other. Each leaf is its own neighbour.
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "base/chunked_rows.hpp"
 #include "tree/background_tree.hpp"
 #include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
-// The neighbours of each leaf.
+// Factor by which d may grow in a leaf above its known maximum before links could be missing.
+inline constexpr double kRoomForGrowth = 1.25;
+
+// The neighbours of each leaf. A row is stored when it is first read, because a rank of many reads
+// only the rows near its nodes. Several threads may read at the same time.
 template <int Dim>
 class LeafGraph {
  public:
-  // Builds the graph. reach[leaf] is the length up to which a leaf interacts, or 0 if it does not
-  // interact. On a sphere, stretch[leaf] is the maximum stretch of the chart in the leaf. Bubbles
-  // near the projection point are so large in the chart that they reach all others, so pairs must
-  // also be within reach along the sphere.
-  void build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
-             const std::vector<double>& stretch = {});
+  // reach[leaf] is the length up to which a leaf interacts, or 0 if it does not interact. On a
+  // sphere, stretch[leaf] is the maximum stretch of the chart in the leaf. Bubbles near the
+  // projection point are so large in the chart that they reach all others, so pairs must also be
+  // within reach along the sphere. `tree` must outlive the graph.
+  LeafGraph(const BackgroundTree<Dim>& tree, std::vector<double> reach,
+            std::vector<double> stretch = {});
+  LeafGraph(const LeafGraph&) = delete;
+  LeafGraph& operator=(const LeafGraph&) = delete;
+  ~LeafGraph() {
+    for (const std::atomic<std::int32_t*>& row : rows_) delete[] row.load();
+  }
 
-  std::int32_t begin(std::int32_t leaf) const { return offset_[index(leaf)]; }
-  std::int32_t end(std::int32_t leaf) const { return offset_[index(leaf) + 1]; }
-  std::int32_t neighbour(std::int32_t k) const { return neighbours_[index(k)]; }
+  const BackgroundTree<Dim>& tree() const { return tree_; }
+  double reach(std::int32_t leaf) const { return reach_[index(leaf)]; }
+  const std::vector<double>& reaches() const { return reach_; }
+  const std::vector<double>& stretches() const { return stretch_; }
 
   // Calls visit(neighbour) in Morton order.
   template <class Visit>
   void for_neighbours(std::int32_t leaf, const Visit& visit) const {
-    for (std::int32_t k = begin(leaf); k < end(leaf); ++k) visit(neighbour(k));
+    const std::int32_t* row = rows_[index(leaf)].load(std::memory_order_acquire);
+    if (!row) row = store_row(leaf);
+    for (std::int32_t k = 1; k <= row[0]; ++k) visit(row[k]);
+  }
+  // The same without storing the row. Skips each cell of the tree for which enter(cell) is false
+  // and all leaves in it.
+  template <class Enter, class Visit>
+  void search_neighbours(std::int32_t leaf, const Enter& enter, const Visit& visit) const;
+
+  // Returns the number of links in the rows that have been read.
+  std::int64_t stored_links() const {
+    std::int64_t links = 0;
+    for (const std::atomic<std::int32_t*>& row : rows_)
+      if (row.load()) links += row.load()[0];
+    return links;
   }
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  Box<Dim> box(std::int32_t leaf) const { return tree_.cell_box(tree_.leaf_cell(leaf)); }
+  bool linked(std::int32_t a, std::int32_t b, double squared_gap) const;
+  const std::int32_t* store_row(std::int32_t leaf) const;
 
-  std::vector<std::int32_t> offset_;
-  std::vector<std::int32_t> neighbours_;
+  const BackgroundTree<Dim>& tree_;
+  std::vector<double> reach_, stretch_;
+  std::vector<double> max_reach_;  // of the leaves in each cell of the tree
+  // The rows, null where not stored. The first entry is the number of the following ones.
+  mutable std::vector<std::atomic<std::int32_t*>> rows_;
 };
 
-// Factor by which d may grow in a leaf above its known maximum before links could be missing.
-inline constexpr double kRoomForGrowth = 1.25;
-
-// A leaf graph together with the reaches that it was built for.
 template <int Dim>
-struct LeafLinks {
-  LeafLinks(const BackgroundTree<Dim>& tree, std::vector<double> reaches,
-            std::vector<double> stretches = {})
-      : reach(std::move(reaches)), stretch(std::move(stretches)) {
-    graph.build(tree, reach, stretch);
-  }
-  std::vector<double> reach, stretch;  // see LeafGraph
-  LeafGraph<Dim> graph;
-};
+LeafGraph<Dim>::LeafGraph(const BackgroundTree<Dim>& tree, std::vector<double> reach,
+                          std::vector<double> stretch)
+    : tree_(tree),
+      reach_(std::move(reach)),
+      stretch_(std::move(stretch)),
+      max_reach_(max_in_cells(tree, reach_)),
+      rows_(index(tree.leaf_count())) {}
 
-// Every leaf searches as far as it reaches itself, and a pair is linked if either leaf finds the
-// other. Lists contain only pairs within the mean of both reaches, but stars require all nodes
-// within the larger one.
+// Returns whether one of two leaves with this squared gap between them reaches the other. Lists
+// contain only pairs within the mean of both reaches, but stars require all nodes within the larger
+// one.
 template <int Dim>
-void LeafGraph<Dim>::build(const BackgroundTree<Dim>& tree, const std::vector<double>& reach,
-                           const std::vector<double>& stretch) {
-  const std::int32_t leaves = tree.leaf_count();
-  ChunkedRows<std::int32_t> seen;  // has each pair in the row of the leaf with the larger reach
-  seen.build("pnpbs::LeafGraph::look", leaves, [&] {
-    return [&](std::int64_t row, std::vector<std::int32_t>& out) {
-      const auto a = static_cast<std::int32_t>(row);
-      const double reach_a = reach[index(a)];
-      if (reach_a == 0) return;
-      const Box<Dim> own = tree.cell_box(tree.leaf_cell(a));
-      tree.for_leaves_in(widened(own, reach_a), [&](std::int32_t b) {
-        const double reach_b = reach[index(b)];
-        if (a == b || reach_b > reach_a || (reach_b == reach_a && b < a)) return;
-        double most = reach_a * reach_a;
-        if (!stretch.empty()) {
-          const double along = std::max(reach_a / stretch[index(a)], reach_b / stretch[index(b)]);
-          most = std::min(most, along * along * stretch[index(a)] * stretch[index(b)]);
-        }
-        if (squared_gap<Dim>(own, tree.cell_box(tree.leaf_cell(b))) > most) return;
-        out.push_back(b);
-      });
-    };
-  });
-  std::int64_t links = leaves;
-  for (std::int32_t a = 0; a < leaves; ++a) links += 2 * std::ssize(seen.row(a));
-  require_fits_rank(links, "links of leaves");
-  offset_.assign(index(leaves) + 1, 0);
-  for (std::int32_t a = 0; a < leaves; ++a) {
-    offset_[index(a) + 1] += 1 + static_cast<std::int32_t>(seen.row(a).size());
-    for (const std::int32_t b : seen.row(a)) ++offset_[index(b) + 1];
+bool LeafGraph<Dim>::linked(std::int32_t a, std::int32_t b, double squared_gap) const {
+  if (a == b) return true;
+  if (reach(b) > reach(a) || (reach(b) == reach(a) && b < a)) std::swap(a, b);
+  if (reach(a) == 0) return false;
+  double most = reach(a) * reach(a);
+  if (!stretch_.empty()) {
+    const double along = std::max(reach(a) / stretch_[index(a)], reach(b) / stretch_[index(b)]);
+    most = std::min(most, along * along * stretch_[index(a)] * stretch_[index(b)]);
   }
-  for (std::int32_t b = 0; b < leaves; ++b) offset_[index(b) + 1] += offset_[index(b)];
-  neighbours_.resize(index(offset_.back()));
-  neighbours_.shrink_to_fit();
-  std::vector<std::int32_t> next(offset_.begin(), offset_.end() - 1);
-  const auto link = [&](std::int32_t a, std::int32_t b) {
-    neighbours_[index(next[index(a)]++)] = b;
+  return squared_gap <= most;
+}
+
+template <int Dim>
+template <class Enter, class Visit>
+void LeafGraph<Dim>::search_neighbours(std::int32_t leaf, const Enter& enter,
+                                       const Visit& visit) const {
+  const Box<Dim> own = box(leaf);
+  const auto in_reach = [&](std::int32_t cell) {
+    const double max = std::max(reach(leaf), max_reach_[index(cell)]);
+    return enter(cell) && squared_gap<Dim>(own, tree_.cell_box(cell)) <= max * max;
   };
-  for (std::int32_t a = 0; a < leaves; ++a) {
-    link(a, a);
-    for (const std::int32_t b : seen.row(a)) {
-      link(a, b);
-      link(b, a);
-    }
-  }
-  for_each("pnpbs::LeafGraph::sort", leaves, [&](std::int64_t b) {
-    const auto leaf = static_cast<std::int32_t>(b);
-    std::sort(neighbours_.begin() + begin(leaf), neighbours_.begin() + end(leaf));
+  tree_.for_leaves_in(widened(own, max_reach_[0]), in_reach, [&](std::int32_t other) {
+    if (linked(leaf, other, squared_gap<Dim>(own, box(other)))) visit(other);
   });
+}
+
+// If several threads need the same row, they compute the same entries, and the first row is kept.
+template <int Dim>
+const std::int32_t* LeafGraph<Dim>::store_row(std::int32_t leaf) const {
+  std::vector<std::int32_t> found{0};
+  search_neighbours(
+      leaf, [](std::int32_t) { return true; }, [&](std::int32_t other) { found.push_back(other); });
+  found[0] = static_cast<std::int32_t>(found.size()) - 1;
+  auto* const row = new std::int32_t[found.size()];
+  std::copy(found.begin(), found.end(), row);
+  std::int32_t* there = nullptr;
+  if (rows_[index(leaf)].compare_exchange_strong(there, row, std::memory_order_acq_rel)) return row;
+  delete[] row;
+  return there;
 }
 
 }  // namespace pnpbs

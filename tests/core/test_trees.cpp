@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graph of leaves, the tree of boxes and the cells near a rank, in 2 and 3 dimensions, against
-// all pairs.
+// The graph of leaves and searches in it, the tree of boxes and the cells near a rank, in 2 and 3
+// dimensions, against all pairs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bubbles.hpp"
 #include "partition/distribution.hpp"
 #include "run_kernel_suite.hpp"
 #include "tree/box_tree.hpp"
+#include "tree/hop_search.hpp"
 
 namespace {
 
@@ -43,42 +46,160 @@ pnpbs::BackgroundTree<Dim> graded_tree() {
   return b.tree;
 }
 
-// Expects that leaves are linked if one reaches the other, and each to itself.
+// Returns a tree in which leaves that differ by several depths touch.
 template <int Dim>
-void expect_links(const pnpbs::BackgroundTree<Dim>& tree, const std::vector<double>& reach) {
-  pnpbs::LeafGraph<Dim> graph;
-  graph.build(tree, reach);
+pnpbs::BackgroundTree<Dim> uneven_tree() {
+  Random random(84);
+  pnpbs::BackgroundTree<Dim> tree;
+  tree.build(unit_box<Dim>(), [&](const pnpbs::BackgroundTree<Dim>& t, std::int32_t first,
+                                  std::int32_t last, std::vector<char>& split) {
+    for (std::int32_t c = first; c < last; ++c)
+      split[static_cast<std::size_t>(c - first)] =
+          t.cell(c).depth < 2 ||
+          (t.cell(c).depth < (Dim == 2 ? 7 : 5) && random.below(1 << Dim) < 2);
+  });
+  return tree;
+}
+
+// Returns the neighbours of each leaf: itself and all within the larger reach of two leaves, on a
+// sphere also by their distance along it, for which the leaf with the larger reach counts.
+template <int Dim>
+std::vector<Indices> expected_links(const pnpbs::BackgroundTree<Dim>& tree,
+                                    const std::vector<double>& reach,
+                                    const std::vector<double>& stretch) {
+  std::vector<Indices> rows(reach.size());
+  for (std::size_t a = 0; a < reach.size(); ++a) {
+    const Box<Dim> box = tree.cell_box(tree.leaf_cell(static_cast<std::int32_t>(a)));
+    for (std::size_t b = 0; b < reach.size(); ++b) {
+      double farther = std::max(reach[a], reach[b]);
+      if (!stretch.empty())
+        farther = std::min(farther, std::max(reach[a] / stretch[a], reach[b] / stretch[b]) *
+                                        std::sqrt(stretch[a] * stretch[b]));
+      const double gap =
+          gap_between<Dim>(box, tree.cell_box(tree.leaf_cell(static_cast<std::int32_t>(b))));
+      if (a == b || (farther > 0 && gap <= farther))
+        rows[a].push_back(static_cast<std::int32_t>(b));
+    }
+  }
+  return rows;
+}
+
+// Expects the links of every leaf, which two threads read, and that only rows that have been read
+// are stored.
+template <int Dim>
+void expect_links(const pnpbs::BackgroundTree<Dim>& tree, const std::vector<double>& reach,
+                  const std::vector<double>& stretch = {}) {
+  const std::vector<Indices> expected = expected_links(tree, reach, stretch);
+  const pnpbs::LeafGraph<Dim> graph(tree, reach, stretch);
+  ck_assert_int_eq(graph.stored_links(), 0);
   std::size_t links = 0;
   for (std::int32_t a = 0; a < tree.leaf_count(); ++a) {
-    Indices expected, found;
-    const Box<Dim> box = tree.cell_box(tree.leaf_cell(a));
-    for (std::int32_t b = 0; b < tree.leaf_count(); ++b) {
-      const double farther =
-          std::max(reach[static_cast<std::size_t>(a)], reach[static_cast<std::size_t>(b)]);
-      const double gap = gap_between<Dim>(box, tree.cell_box(tree.leaf_cell(b)));
-      if (a == b || (farther > 0 && gap <= farther)) expected.push_back(b);
-    }
-    graph.for_neighbours(a, [&](std::int32_t b) { found.push_back(b); });
-    quick_assert(found == expected);
-    links += found.size();
+    Indices searched;
+    graph.search_neighbours(
+        a, [](std::int32_t) { return true; }, [&](std::int32_t b) { searched.push_back(b); });
+    quick_assert(searched == expected[static_cast<std::size_t>(a)]);
+    links += searched.size();
   }
   ck_assert_uint_gt(links, 2 * static_cast<std::size_t>(tree.leaf_count()));
+  ck_assert_int_eq(graph.stored_links(), 0);
+  // Each row is read by several threads at about the same time.
+  std::vector<char> right(4 * expected.size(), 0);
+  pnpbs::for_each("links", std::ssize(right), [&](std::int64_t k) {
+    Indices found;
+    const auto a = static_cast<std::int32_t>(k % std::ssize(expected));
+    graph.for_neighbours(a, [&](std::int32_t b) { found.push_back(b); });
+    right[static_cast<std::size_t>(k)] = found == expected[static_cast<std::size_t>(a)];
+  });
+  ck_assert(std::ranges::all_of(right, [](char is) { return is != 0; }));
+  ck_assert_int_eq(graph.stored_links(), static_cast<std::int64_t>(links));
 }
 
 template <int Dim>
-void expect_leaf_graphs() {
-  const pnpbs::BackgroundTree<Dim> tree = graded_tree<Dim>();
+void expect_leaf_graphs(const pnpbs::BackgroundTree<Dim>& tree) {
   ck_assert_int_gt(tree.leaf_count(), 100);
   Random random(81);
   const auto leaves = static_cast<std::size_t>(tree.leaf_count());
   // Reaches: the width of each leaf; random, some of them zero; and so small that only touching
   // leaves are linked.
-  std::vector<double> widths(leaves), any(leaves), touching(leaves, 1e-9);
+  std::vector<double> widths(leaves), any(leaves), touching(leaves, 1e-9), stretch(leaves);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
     widths[leaf] = 1.01 * tree.cell_side(tree.leaf_cell(static_cast<std::int32_t>(leaf)));
     any[leaf] = random.below(4) == 0 ? 0 : std::pow(10, random.between(-3, -0.5));
+    stretch[leaf] = std::pow(10, random.between(0, 1));
   }
   for (const auto& reach : {widths, any, touching}) expect_links<Dim>(tree, reach);
+  expect_links<Dim>(tree, widths, stretch);
+}
+
+// Expects the numbers of hops that a search over all pairs of leaves finds.
+template <int Dim>
+void expect_hops(const pnpbs::BackgroundTree<Dim>& tree) {
+  Random random(85);
+  std::vector<double> reach;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    reach.push_back(random.below(9) == 0 ? 0.4 * tree.cell_side(tree.leaf_cell(leaf)) : 1e-9);
+  const std::vector<Indices> links = expected_links(tree, reach, {});
+  const pnpbs::LeafGraph<Dim> graph(tree, reach);
+  for (const int hops : {0, 1, 2, 5}) {
+    const Indices from{static_cast<std::int32_t>(random.below(tree.leaf_count())),
+                       static_cast<std::int32_t>(random.below(tree.leaf_count()))};
+    Indices expected(reach.size(), pnpbs::kUnreached), front = from;
+    for (const std::int32_t leaf : from) expected[static_cast<std::size_t>(leaf)] = 0;
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      const std::int32_t hop = expected[static_cast<std::size_t>(front[k])] + 1;
+      for (const std::int32_t other : links[static_cast<std::size_t>(front[k])])
+        if (hop <= hops && expected[static_cast<std::size_t>(other)] == pnpbs::kUnreached) {
+          expected[static_cast<std::size_t>(other)] = hop;
+          front.push_back(other);
+        }
+    }
+    ck_assert(pnpbs::hops_from(graph, from, hops) == expected);
+    ck_assert(hops < 5 || front.size() > from.size() + 50);
+  }
+  ck_assert_int_eq(graph.stored_links(), 0);
+}
+
+// Expects that a rank of eight, which finds its halo and lists its own nodes, stores the links of
+// its own leaves only.
+template <int Dim>
+void expect_links_of_own_leaves() {
+  constexpr int kRanks = 8, kRank = 2, kHops = 3;
+  constexpr double kRadius = 1.7;
+  const auto d = [](const Point<Dim>& x) {
+    return (Dim == 2 ? 0.006 : 0.02) * (1 + pnpbs::distance<Dim>(x, {}));
+  };
+  Bubbles<Dim> b;
+  b.grow_tree(d, 2);
+  std::vector<pnpbs::PartitionCell<Dim>> cells;
+  std::vector<std::int32_t> owner;
+  std::vector<double> reach;
+  for (std::int32_t leaf = 0; leaf < b.tree.leaf_count(); ++leaf) {
+    const auto& cell = b.tree.cell(b.tree.leaf_cell(leaf));
+    const double max = 1.3 * d(b.tree.cell_centre(b.tree.leaf_cell(leaf)));
+    cells.push_back({cell.index, cell.depth, 1, max});
+    owner.push_back(kRanks * leaf / b.tree.leaf_count());
+    reach.push_back(pnpbs::kRoomForGrowth * kRadius * max);
+  }
+  const auto graph = std::make_shared<const pnpbs::LeafGraph<Dim>>(b.tree, std::move(reach));
+  pnpbs::Distribution<Dim> distribution({unit_box<Dim>(), cells}, std::move(owner), kRank);
+  distribution.take_leaves(&b.tree, std::vector<char>(cells.size(), 1));
+  distribution.link_leaves(graph);
+  ck_assert(!distribution.halo(kHops, 1).neighbours().empty());
+  std::vector<Bubble<Dim>> own;
+  std::int64_t links = 0;
+  for (std::int32_t leaf = 0; leaf < b.tree.leaf_count(); ++leaf) {
+    if (!distribution.owns(leaf)) continue;
+    const Point<Dim> x = b.tree.cell_centre(b.tree.leaf_cell(leaf));
+    own.push_back({x, d(x), leaf});
+    graph->search_neighbours(
+        leaf, [](std::int32_t) { return true; }, [&](std::int32_t) { ++links; });
+  }
+  ck_assert_int_eq(graph->stored_links(), 0);
+  b.set(own);
+  b.buckets.reset(graph);
+  b.list(kRadius);
+  ck_assert_int_gt(links, 10 * std::ssize(own));
+  ck_assert_int_eq(graph->stored_links(), links);
 }
 
 // ------------------------------------------------------------------ boxes ----------------------
@@ -225,8 +346,23 @@ void expect_cells_near_ranks() {
 }  // namespace
 
 START_TEST(leaves_are_linked_as_by_search) {
-  expect_leaf_graphs<2>();
-  expect_leaf_graphs<3>();
+  expect_leaf_graphs(graded_tree<2>());
+  expect_leaf_graphs(graded_tree<3>());
+  expect_leaf_graphs(uneven_tree<2>());
+  expect_leaf_graphs(uneven_tree<3>());
+}
+END_TEST
+
+START_TEST(hops_are_counted_as_by_search) {
+  expect_hops(graded_tree<2>());
+  expect_hops(uneven_tree<2>());
+  expect_hops(uneven_tree<3>());
+}
+END_TEST
+
+START_TEST(a_rank_stores_links_of_own_leaves_only) {
+  expect_links_of_own_leaves<2>();
+  expect_links_of_own_leaves<3>();
 }
 END_TEST
 
@@ -249,7 +385,8 @@ START_TEST(cells_are_found_around_a_rank_as_by_search) {
 END_TEST
 
 TEST_SUITE(test_trees) {
-  return run_kernel_suite(
-      "trees", {leaves_are_linked_as_by_search, boxes_are_found_as_by_search, covers_hold_all_boxes,
-                cells_are_found_around_a_rank_as_by_search});
+  return run_kernel_suite("trees",
+                          {leaves_are_linked_as_by_search, hops_are_counted_as_by_search,
+                           a_rank_stores_links_of_own_leaves_only, boxes_are_found_as_by_search,
+                           covers_hold_all_boxes, cells_are_found_around_a_rank_as_by_search});
 }

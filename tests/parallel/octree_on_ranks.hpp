@@ -88,7 +88,7 @@ inline pnpbs::Distribution<3> distributed(const pnpbs::Communicator& comm,
   distribution.take_leaves(&tree, all);
   std::vector<double> reach;
   for (const double leaf_d : d) reach.push_back(pnpbs::kRoomForGrowth * radius * leaf_d);
-  distribution.link_leaves(std::make_shared<const pnpbs::LeafLinks<3>>(tree, std::move(reach)));
+  distribution.link_leaves(std::make_shared<const pnpbs::LeafGraph<3>>(tree, std::move(reach)));
   return distribution;
 }
 

@@ -8,6 +8,7 @@
 #include "domain/volume/surface_walk.hpp"
 #include "geometry/clearance.hpp"
 #include "method/constants.hpp"
+#include "tree/hop_search.hpp"
 
 namespace pnpbs {
 
@@ -53,17 +54,19 @@ bool VisibilityInSpace::see_through_inside(std::int64_t i, std::int64_t j) const
 NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& level_tree,
                                                          double radius) {
   const SizedTree<3>& map = level_tree.map();
-  const LeafLinks<3>& links = *level_tree.links();
+  const LeafGraph<3>& links = *level_tree.links();
   const auto leaves = static_cast<std::size_t>(map.tree().leaf_count());
   NearLeaves near{radius, std::vector<double>(leaves), std::vector<char>(leaves)};
+  std::vector<std::int32_t> with_facets;
+  for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf)
+    if (map.leaf_has_facets(leaf)) with_facets.push_back(leaf);
+  const std::vector<std::int32_t> to_facets = hops_from(links, with_facets, 1);
   for (std::size_t l = 0; l < leaves; ++l) {
     const auto leaf = static_cast<std::int32_t>(l);
     const double reach = kRoomForGrowth * radius * map.leaf_max_spacing(leaf);
-    bool clear = true;
-    if (reach <= links.reach[l]) {
-      links.graph.for_neighbours(
-          leaf, [&](std::int32_t other) { clear = clear && !map.leaf_has_facets(other); });
-    } else {
+    bool clear = to_facets[l] > 1;
+    if (reach > links.reach(leaf)) {
+      clear = true;
       const std::int32_t cell = map.tree().leaf_cell(leaf);
       const double half_diagonal = 0.8661 * map.tree().cell_side(cell);
       map.for_facets_near(map.tree().cell_centre(cell), half_diagonal + reach,
