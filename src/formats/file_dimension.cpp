@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
+#include "base/text_lines.hpp"
 #include "formats/msh_mesh.hpp"
 #include "formats/surface_formats.hpp"
 
@@ -19,10 +21,13 @@ bool has_three_dimensions(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path);
-  std::string line, vertices, dimension;
-  while (std::getline(file, line)) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    if (words >> vertices) return words >> dimension && dimension == "3";
+  std::string text, vertices, dimension;
+  while (std::getline(file, text)) {
+    for (std::string_view rest = text; !rest.empty();) {
+      const std::string_view line = take_line(rest);
+      std::istringstream words(std::string(line.substr(0, line.find('#'))));
+      if (words >> vertices) return words >> dimension && dimension == "3";
+    }
   }
   return false;
 }

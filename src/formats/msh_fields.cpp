@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/limits.hpp"
 #include "base/number_bytes.hpp"
+#include "base/text_lines.hpp"
 #include "formats/text_fields.hpp"
 
 namespace pnpbs {
@@ -25,9 +26,9 @@ std::string_view trimmed(std::string_view text) {
 std::optional<std::string_view> MshFields::line() {
   while (remaining() > 0) {
     read_last_ = at_;
-    const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
-    const std::string_view text = trimmed(bytes_.substr(at_, end - at_));
-    at_ = std::min(end + 1, bytes_.size());
+    std::string_view rest = bytes_.substr(at_);
+    const std::string_view text = trimmed(take_line(rest));
+    at_ = bytes_.size() - rest.size();
     if (!text.empty()) return text;
   }
   read_last_ = at_;
@@ -41,13 +42,14 @@ std::string_view MshFields::required_line(std::string_view what) {
 }
 
 void MshFields::skip_section(std::string_view section) {
-  const std::string end = "\n$End" + std::string(section);
-  // The line of an empty section ends right before its $End.
-  const std::size_t from = at_ > 0 ? at_ - 1 : 0;
-  const std::size_t found = bytes_.find(end, from);
+  const std::string end = "$End" + std::string(section);
+  std::size_t found = bytes_.find(end, at_);
+  // A section without lines ends right here, any other one at the beginning of a line.
+  while (found != std::string_view::npos && found > at_ && !is_line_end(bytes_[found - 1]))
+    found = bytes_.find(end, found + 1);
   if (found == std::string_view::npos)
-    fail("the section $" + std::string(section) + " has no end '" + end.substr(1) + "'");
-  at_ = found + 1;
+    fail("the section $" + std::string(section) + " has no end '" + end + "'");
+  at_ = found;
   line();
 }
 
@@ -128,9 +130,7 @@ void MshFields::fail_found(std::string_view found, std::string_view what) const 
 void MshFields::fail(const std::string& message) const {
   std::string place = ": at byte " + std::to_string(read_last_);
   if (!binary_) {
-    const auto begin = bytes_.begin();
-    const auto lines = std::count(begin, begin + static_cast<std::ptrdiff_t>(read_last_), '\n');
-    place = ":" + std::to_string(lines + 1);
+    place = ":" + std::to_string(count_line_ends(bytes_.substr(0, read_last_)) + 1);
   }
   throw Error(ErrorKind::file, name_ + place + ": " + message);
 }

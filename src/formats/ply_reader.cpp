@@ -144,7 +144,7 @@ PlyHeader parse_ply_header(TextFields& fields) {
 // Data of a PLY file as text.
 class TextSource {
  public:
-  explicit TextSource(TextFields& fields) : fields_(fields) {}
+  explicit TextSource(TextFields fields) : fields_(std::move(fields)) {}
 
   bool next_row() { return fields_.next_line(); }
   double coordinate(PlyType, std::string_view what) { return fields_.coordinate(what); }
@@ -154,7 +154,7 @@ class TextSource {
   [[noreturn]] void fail(const std::string& message) const { fields_.fail(message); }
 
  private:
-  TextFields& fields_;
+  TextFields fields_;
 };
 
 // Data of a PLY file in binary form.
@@ -211,19 +211,25 @@ class BinarySource {
 template <class Source>
 class Body {
  public:
-  explicit Body(Source source) : source_(source) {}
+  explicit Body(Source source) : source_(std::move(source)) {}
 
   SurfaceTriangles parse(const PlyHeader& header) {
+    std::vector<std::pair<const PlyElement*, Source>> early_faces;  // before the vertices
     for (const PlyElement& element : header.elements) {
       if (element.name == "vertex") {
         read_vertices(element);
-      } else if (element.name == "face") {
+      } else if (element.name == "face" && !surface_.vertices.empty()) {
         read_faces(element);
-      } else if (!element.properties.empty()) {
-        read_rows(element, [this](const PlyProperty& property, std::size_t) { skip(property); });
+      } else {
+        if (element.name == "face") early_faces.emplace_back(&element, source_);
+        skip_rows(element);
       }
     }
     if (!source_.at_end()) source_.fail("found more than the header declares");
+    for (auto& [element, source] : early_faces) {
+      source_ = std::move(source);
+      read_faces(*element);
+    }
     return std::move(surface_);
   }
 
@@ -241,6 +247,11 @@ class Body {
   template <class Read>
   void read_rows(const PlyElement& element, const Read& read) {
     read_rows(element, read, [] {});
+  }
+
+  void skip_rows(const PlyElement& element) {
+    if (element.properties.empty()) return;
+    read_rows(element, [this](const PlyProperty& property, std::size_t) { skip(property); });
   }
 
   void read_vertices(const PlyElement& element) {
@@ -271,7 +282,7 @@ class Body {
         !is_integer(element.properties[list].type)) {
       source_.fail("the header has no list of integers 'vertex_indices' of faces");
     }
-    if (surface_.vertices.empty()) source_.fail("found no vertices before the faces");
+    if (surface_.vertices.empty()) source_.fail("found no vertices");
     read_rows(
         element,
         [&](const PlyProperty& property, std::size_t place) {
@@ -310,6 +321,14 @@ class Body {
   std::vector<std::int32_t> corners_;
 };
 
+// Returns the size of the header of a binary file, whose last line was read. If its lines end in CR
+// alone, an LF behind the last one belongs to the data.
+std::size_t header_size(std::string_view bytes, const TextFields& fields) {
+  const std::size_t size = bytes.size() - fields.rest().size();
+  const bool ends_in_cr = !bytes.substr(bytes.find_first_of("\r\n")).starts_with("\r\n");
+  return size - (ends_in_cr && bytes.substr(0, size).ends_with("\r\n") ? 1 : 0);
+}
+
 }  // namespace
 
 SurfaceTriangles parse_ply(std::string_view bytes, const std::string& name) {
@@ -317,12 +336,12 @@ SurfaceTriangles parse_ply(std::string_view bytes, const std::string& name) {
   const PlyHeader header = parse_ply_header(fields);
   if (header.encoding == PlyEncoding::text) {
     expect_text(bytes, name, "PLY");
-    return Body<TextSource>(TextSource(fields)).parse(header);
+    return Body<TextSource>(TextSource(std::move(fields))).parse(header);
   }
   const std::endian order =
       header.encoding == PlyEncoding::little_endian ? std::endian::little : std::endian::big;
-  const std::size_t begin = bytes.size() - fields.rest().size();
-  return Body<BinarySource>(BinarySource({bytes, begin, order, name})).parse(header);
+  return Body<BinarySource>(BinarySource({bytes, header_size(bytes, fields), order, name}))
+      .parse(header);
 }
 
 }  // namespace pnpbs

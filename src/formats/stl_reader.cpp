@@ -172,7 +172,7 @@ bool begins_as_text(std::string_view bytes) {
   return is_word(fields.required("a word"), "solid");
 }
 
-// Throws an error for a file that is not text and does not have the size of a binary file with
+// Throws an error for a file that is not text, and empty or too short for a binary file with
 // `count` triangles.
 [[noreturn]] void fail_as_binary(std::string_view bytes, std::size_t count,
                                  const std::string& name) {
@@ -207,7 +207,15 @@ SurfaceTriangles parse_stl(std::string_view bytes, const std::string& name) {
   if (has_header && bytes.size() == expected) return parse_binary(fields, count);
   if (begins_as_text(bytes) && bytes.find('\0') == std::string_view::npos)
     return TextParser(bytes, name).parse();
-  fail_as_binary(bytes, count, name);
+  if (count == 0 || bytes.size() < expected) fail_as_binary(bytes, count, name);
+  SurfaceTriangles surface = parse_binary(fields, count);
+  const std::size_t extra = bytes.size() - expected;
+  surface.warnings.emplace_back(WarningCode::triangles_left_out,
+                                name + ": " + std::to_string(extra) + " bytes behind the " +
+                                    std::to_string(count) +
+                                    " triangles that the header announces are left out",
+                                static_cast<std::int64_t>(extra / kTriangle));
+  return surface;
 }
 
 }  // namespace pnpbs

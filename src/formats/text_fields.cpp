@@ -14,15 +14,14 @@
 
 #include "base/error.hpp"
 #include "base/limits.hpp"
+#include "base/text_lines.hpp"
 
 namespace pnpbs {
 namespace {
 
 constexpr std::size_t kLongestShown = 24;
 
-constexpr bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 std::string_view without_leading_blanks(std::string_view text) {
   const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
@@ -60,9 +59,7 @@ TextFields::TextFields(std::string_view text, std::string name, Comments comment
 
 bool TextFields::next_line() {
   while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
-    line_ = without_leading_blanks(rest_.substr(0, end));
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    line_ = without_leading_blanks(take_line(rest_));
     ++line_number_;
     if (comments_ == Comments::anywhere) line_ = line_.substr(0, line_.find('#'));
     if (!line_.empty() && line_.front() != '#') return true;

@@ -47,7 +47,7 @@ class Words {
           file_.unget();
           return true;
         }
-        line_ += c == '\n';
+        line_ += c == '\n' || (c == '\r' && file_.peek() != '\n');
       } else {
         if (word.size() >= 64) fail("a number", word + "...");
         word.push_back(static_cast<char>(c));

@@ -3,7 +3,9 @@
 
 #include <cctype>
 #include <fstream>
+#include <iterator>
 
+#include "base/text_lines.hpp"
 #include "sphere/degrees.hpp"
 #include "tool/exit.hpp"
 #include "tool/numbers.hpp"
@@ -21,10 +23,12 @@ bool is_header(const std::string& line) {
 std::vector<double> read_spacing_hints(const std::string& path, int dimension, bool on_sphere) {
   std::ifstream file(path);
   if (!file) throw BadInput("--spacing-hints: cannot read '" + path + "'");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
   const std::size_t columns = on_sphere ? 2 : static_cast<std::size_t>(dimension);
   std::vector<double> coordinates;
-  std::string line;
-  for (std::int64_t number = 1; std::getline(file, line); ++number) {
+  std::string_view rest = text;
+  for (std::int64_t number = 1; !rest.empty(); ++number) {
+    std::string line(take_line(rest));
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0)
       line.pop_back();
     if (line.empty() || line[0] == '#' || (number == 1 && is_header(line))) continue;

@@ -120,6 +120,18 @@ START_TEST(stl_binary_that_begins_as_text) {
 }
 END_TEST
 
+START_TEST(stl_bytes_behind_the_triangles) {
+  const SurfaceTriangles surface =
+      read(SurfaceFormat::stl, surface_files::stl_binary(box) + std::string(120, '\0'));
+  expect_the_same(surface, box);
+  ck_assert_uint_eq(surface.warnings.size(), 1);
+  ck_assert(surface.warnings[0].code == pnpbs::WarningCode::triangles_left_out);
+  ck_assert_int_eq(surface.warnings[0].count, 2);
+  expect_file_error(SurfaceFormat::stl, {"it has 120 bytes, expected 84 for the 0 triangles"},
+                    std::string(120, '\0'));
+}
+END_TEST
+
 START_TEST(stl_equal_corners_are_one_vertex) {
   SurfaceTriangles soup;
   soup.vertices = {{0, 1, 0}, {1, 0, 0}, {-0.0, 1, -0.0}, {1, 0, 1e-300}};
@@ -294,7 +306,7 @@ TEST_SUITE(test_surface_readers) {
   return run_suite(
       "surface_readers",
       {one_surface_in_all_formats, formats_by_ending, files, real_files, any_locale,
-       stl_solids_and_their_names, stl_binary_that_begins_as_text, stl_equal_corners_are_one_vertex,
-       stl_many_vertices, stl_errors, off_variants, off_errors, triangles_that_are_nothing_are_read,
-       obj_forms_of_corners, obj_names, obj_errors});
+       stl_solids_and_their_names, stl_binary_that_begins_as_text, stl_bytes_behind_the_triangles,
+       stl_equal_corners_are_one_vertex, stl_many_vertices, stl_errors, off_variants, off_errors,
+       triangles_that_are_nothing_are_read, obj_forms_of_corners, obj_names, obj_errors});
 }

@@ -47,6 +47,27 @@ START_TEST(ply_other_elements_and_properties) {
 }
 END_TEST
 
+START_TEST(ply_binary_whose_data_begin_with_a_line_end) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string bytes;
+    for (const char* line :
+         {"ply", "format binary_little_endian 1.0", "element vertex 3", "property uchar red",
+          "property float x", "property float y", "property float z", "element face 1",
+          "property list uchar int vertex_indices", "end_header"})
+      bytes += line + end;
+    for (int i = 0; i < 3; ++i) {
+      bytes += '\n';
+      for (const int x : {i, i * i, 0}) surface_files::append(bytes, static_cast<float>(x));
+    }
+    bytes += '\3';
+    for (const std::int32_t i : {0, 1, 2}) surface_files::append(bytes, i);
+    const SurfaceTriangles surface = read(SurfaceFormat::ply, bytes);
+    ck_assert(surface.vertices[2] == (pnpbs::Point<3>{2, 4, 0}));
+    ck_assert(surface.triangles == (Triangles{{0, 1, 2}}));
+  }
+}
+END_TEST
+
 START_TEST(ply_errors) {
   const auto expect = [](std::initializer_list<const char*> parts, const std::string& text) {
     expect_file_error(SurfaceFormat::ply, parts, text);
@@ -78,7 +99,7 @@ START_TEST(ply_errors) {
     expect({"the header has no list of integers 'vertex_indices' of faces"},
            replaced(text, "list uchar int vertex_indices", list));
   }
-  expect({"found no vertices before the faces"}, replaced(text, "vertex 8", "point 8"));
+  expect({"found no vertices"}, replaced(text, "vertex 8", "point 8"));
   expect({"more than 2147483647 vertices"}, replaced(text, "vertex 8", "vertex 2147483648"));
   expect({"x:12: found 'nan', expected y"}, replaced(text, "\n1 2 0\n", "\n1 nan 0\n"));
   expect({"x:19: there is no vertex 8, expected 0 to 7"}, replaced(text, "3 0 1 2", "3 0 8 2"));
@@ -188,6 +209,7 @@ START_TEST(tetgen_errors) {
 END_TEST
 
 TEST_SUITE(test_surface_sections) {
-  return run_suite("surface_sections", {ply_other_elements_and_properties, ply_errors,
-                                        tetgen_sections, tetgen_node_file, tetgen_errors});
+  return run_suite("surface_sections",
+                   {ply_other_elements_and_properties, ply_binary_whose_data_begin_with_a_line_end,
+                    ply_errors, tetgen_sections, tetgen_node_file, tetgen_errors});
 }
