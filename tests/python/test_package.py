@@ -501,6 +501,61 @@ class Domains(Case):
         outward = (0.5 - points[on_ball]) / 0.25
         self.assertGreater(np.einsum("ij,ij->i", normals[on_ball], outward).min(), 0.99)
 
+    def test_inner_bodies(self):
+        # An inner body divides the domain, and only it: the cube around it has the same tag.
+        bodies = {"box": ((0.3, 0.3, 0.3), (0.7, 0.7, 0.7)), "ball": ((0.5, 0.5, 0.5), 0.25),
+                  "cylinder": ((0.5, 0.5, 0.3), (0.5, 0.6, 0.7), 0.2)}
+        for name, arguments in bodies.items():
+            alone = getattr(pnpbs.Domain(self.context, dim=3), f"add_{name}")(*arguments)
+            domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+            getattr(domain, f"add_{name}")(*arguments, role="inner")
+            domain.add_region((0.5, 0.5, 0.5), 3)
+            self.assertIn(name, repr(domain))
+            self.assertNotIn("surface", repr(domain))
+            self.assertAlmostEqual(domain.measure(), 1, 12)
+            points = np.random.default_rng(1).random((200, 3))
+            np.testing.assert_allclose(
+                np.minimum(domain.distance(points), alone.distance(points)),
+                domain.distance(points, tag=1), atol=2e-4 * 0.25)
+            placement = pnpbs.Placement(domain).set_spacing(0.15)
+            placement.run()
+            points = placement.nodes().points
+            inside = placement.tetrahedra()[placement.element_tags() == 3]
+            sides = points[inside[:, 1:]] - points[inside[:, :1]]
+            self.assertAlmostEqual(np.linalg.det(sides).sum() / 6 / alone.measure(), 1, delta=0.2)
+            for wrong in (("side",), (1,)):
+                with self.assertRaises(ValueError):
+                    getattr(domain, f"add_{name}")(*arguments, 1, *wrong)
+        domain = pnpbs.Domain(self.context, dim=3)
+        self.assert_status(Status.ERROR_ARGUMENT, domain.add_ball, (0, 0, 0), -1, role="inner")
+        self.assert_status(Status.ERROR_ARGUMENT, domain.add_box, (0, 0, 0), (1, 1, 0), role="inner")
+
+    def test_one_tag_by_either_name(self):
+        plane = pnpbs.Domain(self.context)
+        plane.add_arc((0, 0), 1, tags=2).add_polyline([(3, 0), (4, 0), (3, 1)], tag=3)
+        plane.add_curve(lambda t: np.stack([8 + np.cos(t), np.sin(t)], axis=1), 0, 2 * np.pi, tags=4)
+        graph = pnpbs.Domain(self.context)
+        graph.add_pslg([(0, 0), (1, 0), (0, 1)], [(0, 1), (1, 2), (2, 0)], tag=5)
+        body = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1), tags=6)
+        body.add_ball((3, 0, 0), 1, tags=7).add_cylinder((6, 0, 0), (7, 0, 0), 1, tags=8)
+        body.add_level_set(lambda x: np.linalg.norm(x - (12, 0, 0), axis=1) - 1, (10, -2, -2),
+                           (14, 2, 2), 0.2, tags=9)
+        for domain, tags in ((plane, (2, 3, 4)), (graph, (5,)), (body, (6, 7, 8, 9))):
+            for tag in tags:
+                self.assertEqual(domain.distance([(0.3,) * domain.dim], tag=tag).shape, (1,))
+        with self.assertRaises(TypeError):
+            plane.add_arc((0, 0), 1, tag=1, tags=1)
+        with self.assertRaises(ValueError):
+            plane.add_arc((0, 0), 1, tags=[1, 2])
+
+    def test_results_before_a_run(self):
+        plane = self.square().set_spacing(0.1)
+        body = pnpbs.Placement(pnpbs.Domain(self.context, dim=3).add_ball((0, 0, 0), 1))
+        for read in (plane.nodes, plane.boundary_edges, plane.triangles, plane.adjacency, plane.plot,
+                     body.nodes, body.normals, body.tetrahedra):
+            self.assertIn("call run", self.assert_status(Status.ERROR_STATE, read))
+        self.assertEqual(plane.node_count, 0)
+
     def test_surfaces(self):
         corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float)
         domain = pnpbs.Domain(self.context, dim=3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+import operator
 import os
 from collections import Counter
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
@@ -16,6 +17,7 @@ from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
 from ._callbacks import curve_callback, level_set_callback, no_spacing, spacing_callback
 from ._interface import library
+from ._primitives import ball_triangles, box_triangles, cylinder_triangles
 from ._summaries import summary
 from ._types import ArrayFunction, Doubles, Int32s, Path, Role
 from .context import Context, Handle
@@ -48,11 +50,21 @@ def _role_number(role: str) -> int:
     return _ROLES[role]
 
 
-def _tags_or_tag(tags: Optional[ArrayLike], tag: Optional[int]) -> Optional[ArrayLike]:
+def _tags_or_tag(tags: Optional[ArrayLike], tag: Optional[ArrayLike]) -> Optional[ArrayLike]:
     """Returns the one that is given. Raises TypeError if both are."""
     if tags is not None and tag is not None:
         raise TypeError("tag and tags are both given; one of them was expected")
     return tag if tags is None else tags
+
+
+def _one_tag(tag: Optional[int], tags: Optional[int]) -> int:
+    """Returns the tag of a curve or surface that has only one, 1 by default."""
+    given = _tags_or_tag(tags, tag)
+    if given is None:
+        return 1
+    if np.ndim(given) != 0:
+        raise ValueError(f"tags is {given!r}; one tag was expected")
+    return operator.index(given)  # type: ignore[arg-type]
 
 
 def _as_function(d: Union[float, ArrayFunction]) -> ArrayFunction:
@@ -81,7 +93,8 @@ class Domain(Handle):
     - `role`: "boundary" for a curve or surface that separates inside from outside; "inner" for one
       inside the domain that nodes follow. Curves in space are always inner.
     - `tag`: a nonzero integer that marks the nodes on a curve or surface. `tags` is one number for
-      all segments or triangles, or one for each; None stands for 1."""
+      all segments or triangles, or one for each; None stands for 1. Each is accepted where the
+      other is; a curve or surface of one piece has one tag."""
 
     def __init__(self, context: Context, dim: int = 2) -> None:
         super().__init__()
@@ -181,7 +194,8 @@ class Domain(Handle):
                           as_tags(_tags_or_tag(tags, tag), segments, "tags"), corner_angle)
 
     def add_arc(self, centre: ArrayLike, radius: float, begin: float = 0.0, end: float = 2 * math.pi,
-                role: Role = "boundary", tag: int = 1) -> Domain:
+                role: Role = "boundary", tag: Optional[int] = None, *,
+                tags: Optional[int] = None) -> Domain:
         """Adds a circular arc, by default a full circle, to a domain in the plane. Its ends join
         curves that end at the same point, to within 1e-9 of the size of the domain.
 
@@ -189,10 +203,10 @@ class Domain(Handle):
         - `radius`: greater than 0.
         - `begin`, `end`: angles in radians."""
         return self._call("add_arc", _role_number(role), as_point(centre, 2, "centre"), radius,
-                          begin, end, tag)
+                          begin, end, _one_tag(tag, tags))
 
     def add_curve(self, curve: ArrayFunction, begin: float, end: float, role: Role = "boundary",
-                  tag: int = 1) -> Domain:
+                  tag: Optional[int] = None, *, tags: Optional[int] = None) -> Domain:
         """Adds a curve that a function defines to a domain in the plane. Corners exist only where
         curves meet. A curve whose ends coincide is closed.
 
@@ -202,13 +216,15 @@ class Domain(Handle):
           keeps it. An exception that it raises is raised by the call in progress.
         - `begin`, `end`: the range of the parameter."""
         callback = curve_callback(curve, self.context)
-        self._call("add_curve", _role_number(role), callback, None, begin, end, tag)
+        self._call("add_curve", _role_number(role), callback, None, begin, end,
+                   _one_tag(tag, tags))
         self._callbacks.append(callback)
         return self
 
     def add_pslg(self, coordinates: ArrayLike, segments: ArrayLike,
                  vertex_tags: Optional[ArrayLike] = None, segment_tags: Optional[ArrayLike] = None,
-                 holes: ArrayLike = ()) -> Domain:
+                 holes: ArrayLike = (), *, tags: Optional[ArrayLike] = None,
+                 tag: Optional[int] = None) -> Domain:
         """Adds a planar straight-line graph, as Triangle defines it, to a domain in the plane. The
         segments enclose the domain, except for regions that contain a hole point. Every vertex
         becomes a node, unless `set_corner_angle` is called. This rule then holds for all curves of
@@ -217,10 +233,11 @@ class Domain(Handle):
         - `coordinates`: the vertices, of shape (n, 2).
         - `segments`: indices of vertices, of shape (m, 2).
         - `vertex_tags`: tags of vertices; 0 stands for the tag of the segment.
-        - `segment_tags`: tags of segments.
+        - `segment_tags`: tags of segments; `tags`, or `tag` for one, are other names.
         - `holes`: a point in each hole, of shape (h, 2)."""
         points = as_points(coordinates, 2, "coordinates")
         ends = as_indices(segments, 2, "segments")
+        segment_tags = _tags_or_tag(segment_tags, _tags_or_tag(tags, tag))
         hole_points = as_points(holes, 2, "holes")
         return self._call("add_pslg", len(points), points,
                           as_tags(vertex_tags, len(points), "vertex_tags"), len(ends), ends,
@@ -268,23 +285,48 @@ class Domain(Handle):
         what was expected."""
         return self._call("read_surface", _role_number(role), os.fsencode(path), feature_angle)
 
-    def add_box(self, low: ArrayLike, high: ArrayLike, tag: int = 1) -> Domain:
-        """Adds a box to a domain in space. Its sides bound the domain. `low` and `high` are
-        opposite corners."""
-        return self._call("add_box", as_point(low, 3, "low"), as_point(high, 3, "high"), tag)
+    def add_box(self, low: ArrayLike, high: ArrayLike, tag: Optional[int] = None,
+                role: Role = "boundary", *, tags: Optional[int] = None) -> Domain:
+        """Adds a box to a domain in space. Its sides bound the domain, or with the role "inner" lie
+        in it and nodes follow them. `low` and `high` are opposite corners."""
+        corners = as_point(low, 3, "low"), as_point(high, 3, "high")
+        if _role_number(role) == _interface.INNER and np.all(corners[0] < corners[1]):
+            return self._add_inner("box", box_triangles(*corners), _one_tag(tag, tags))
+        return self._call("add_box", *corners, _one_tag(tag, tags))
 
-    def add_ball(self, centre: ArrayLike, radius: float, tag: int = 1) -> Domain:
-        """Adds a ball to a domain in space, as triangles within 1e-4 of the radius."""
-        return self._call("add_ball", as_point(centre, 3, "centre"), radius, tag)
+    def add_ball(self, centre: ArrayLike, radius: float, tag: Optional[int] = None,
+                 role: Role = "boundary", *, tags: Optional[int] = None) -> Domain:
+        """Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Its surface
+        bounds the domain, or with the role "inner" lies in it and nodes follow it."""
+        middle = as_point(centre, 3, "centre")
+        if _role_number(role) == _interface.INNER and radius > 0:
+            return self._add_inner("ball", ball_triangles(middle, radius), _one_tag(tag, tags))
+        return self._call("add_ball", middle, radius, _one_tag(tag, tags))
 
-    def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float, tag: int = 1) -> Domain:
+    def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float,
+                     tag: Optional[int] = None, role: Role = "boundary", *,
+                     tags: Optional[int] = None) -> Domain:
         """Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius.
+        Its surface bounds the domain, or with the role "inner" lies in it and nodes follow it.
         `begin` and `end` are the centres of its two circles."""
-        return self._call("add_cylinder", as_point(begin, 3, "begin"), as_point(end, 3, "end"),
-                          radius, tag)
+        ends = as_point(begin, 3, "begin"), as_point(end, 3, "end")
+        if _role_number(role) == _interface.INNER and radius > 0 and np.any(ends[0] != ends[1]):
+            return self._add_inner("cylinder", cylinder_triangles(*ends, radius),
+                                   _one_tag(tag, tags))
+        return self._call("add_cylinder", *ends, radius, _one_tag(tag, tags))
+
+    def _add_inner(self, what: str, triangles: Doubles, tag: int) -> Domain:
+        """Adds triangles of shape (n, 3, 3) as an inner surface. The library has boxes, balls and
+        cylinders that bound the domain only; their invalid arguments are left to it."""
+        self.add_surface(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3),
+                         "inner", tag=tag)
+        self._added["surface"] -= 1
+        self._added += Counter([what])  # drops counts of 0
+        return self
 
     def add_level_set(self, level_set: ArrayFunction, low: ArrayLike, high: ArrayLike,
-                      resolution: float, tag: int = 1) -> Domain:
+                      resolution: float, tag: Optional[int] = None, *,
+                      tags: Optional[int] = None) -> Domain:
         """Adds the body where a function is negative to a domain in space. Its surface is found on
         an octree that is refined near the zeros of the function. Thinner features can be lost.
 
@@ -298,13 +340,13 @@ class Domain(Handle):
         box, with the point, or if it is negative nowhere."""
         callback = level_set_callback(level_set, self.context)
         self._call("add_level_set", callback, None, as_point(low, 3, "low"),
-                   as_point(high, 3, "high"), resolution, tag)
+                   as_point(high, 3, "high"), resolution, _one_tag(tag, tags))
         self._callbacks.append(callback)
         return self
 
     def add_offset(self, body: Domain, low: float, high: float,
                    d: Union[None, float, ArrayFunction] = None, resolution: float = 0.0,
-                   tag: int = 1) -> Domain:
+                   tag: Optional[int] = None, *, tags: Optional[int] = None) -> Domain:
         """Adds the body between two distances from the boundary of another body. A point belongs to
         it if its signed distance from that boundary, negative inside, lies between `low` and `high`
         times d. All ranks must make the same call.
@@ -329,7 +371,8 @@ class Domain(Handle):
         Raises `Status.ERROR_DOMAIN` if the body is invalid or nothing lies between these distances,
         and `Status.ERROR_SPACING` for values of d that are zero, negative or not finite."""
         callback = no_spacing() if d is None else spacing_callback(_as_function(d), self.context)
-        self._call("add_offset", body._live(), low, high, callback, None, resolution, tag)
+        self._call("add_offset", body._live(), low, high, callback, None, resolution,
+                   _one_tag(tag, tags))
         self._callbacks.append(callback)
         return self
 

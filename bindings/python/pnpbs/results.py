@@ -16,7 +16,7 @@ from ._plots import plot_nodes
 from ._summaries import summary
 from ._types import Doubles, Ids, Int32s, Path
 from ._warnings import WarningCode, WarningData
-from .errors import Status
+from .errors import PNPBSError, Status
 from .placement_handle import PlacementHandle
 from .rows import CompressedRows
 from .tables import format_table, statistic_table
@@ -170,11 +170,20 @@ class Results(PlacementHandle):
         """The number of nodes of this rank. Local."""
         return int(self._number("count", ctypes.c_int64))
 
+    def _placed_count(self) -> int:
+        """Returns `node_count`. Raises `Status.ERROR_STATE` if it is 0, unless other ranks may have
+        nodes."""
+        if self.node_count == 0 and not self.context._on_ranks:
+            raise PNPBSError(Status.ERROR_STATE,
+                             "the placement has no nodes yet: call run first")
+        return self.node_count
+
     def nodes(self) -> Nodes:
         """Returns a copy of the nodes of this rank, in their local order. `points` has the shape
         (n, dim). `ids` are global. `tags` are 0 for inner nodes and otherwise that of the curve,
-        surface or fixed node. `spacing` is d at the nodes. Local."""
-        n = self.node_count
+        surface or fixed node. `spacing` is d at the nodes. Raises `Status.ERROR_STATE` before the
+        first run, which on several ranks returns no nodes. Local."""
+        n = self._placed_count()
         found = Nodes(np.zeros((n, self.dim)), np.zeros(n, np.int64), np.zeros(n, np.int32),
                       np.zeros(n))
         self._call("get_nodes", n, *found)
@@ -191,7 +200,7 @@ class Results(PlacementHandle):
         """Returns the surface normals at the nodes of this rank, of shape (n, 3), for a placement
         in space. They are unit normals. On feature edges and in corners they are means of the
         adjacent normals. They are 0 at inner nodes. Local."""
-        found = np.zeros((self.node_count, 3))
+        found = np.zeros((self._placed_count(), 3))
         self._call("get_normals", len(found), found)
         return found
 
@@ -300,6 +309,7 @@ class Results(PlacementHandle):
         """Returns the edges between consecutive nodes on boundary and inner curves of a placement
         in the plane or on a sphere: (n, 2) local indices, and the tags of the curves. An edge
         belongs to the rank that owns its first node; the other one may be a ghost. Local."""
+        self._placed_count()
         return self._facets("get_boundary_edges", 2)
 
     def boundary_triangles(self) -> Facets:
