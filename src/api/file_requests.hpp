@@ -23,7 +23,8 @@ inline std::vector<io::FileRequest> requests_of(std::int32_t n, const char* cons
     const std::string at = "[" + std::to_string(k) + "]";
     require_pointer(paths[k], ("paths" + at).c_str());
     const char* format = formats && formats[k] ? formats[k] : "";
-    io::add_request(paths[k], format, elements && elements[k], of, requests);
+    const std::int32_t wanted = elements ? elements[k] : 0;
+    io::add_request(paths[k], format, wanted == 2 ? 2 : wanted != 0 ? 1 : 0, of, requests);
   }
   return requests;
 }
@@ -34,8 +35,8 @@ inline void require_same_requests(const Communicator& comm,
                                   const std::vector<io::FileRequest>& requests) {
   std::string mine;
   for (const io::FileRequest& request : requests)
-    mine +=
-        std::string(request.format->name) + (request.elements ? "+ " : " ") + request.path + "\n";
+    mine += std::string(request.format->name) +
+            std::string(static_cast<std::size_t>(request.order), '+') + " " + request.path + "\n";
   Bytes theirs(mine.begin(), mine.end());
   comm.broadcast(theirs, 0);
   collective_try(comm, [&] {

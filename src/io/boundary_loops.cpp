@@ -31,7 +31,7 @@ std::vector<LoopEdge> bounding_edges(const NodeSource& nodes, const Communicator
   nodes.for_facets([&](const FacetRows& rows) {
     for (std::size_t f = 0; f < rows.tags.size(); ++f) {
       if (rows.domain[f] == Side::both) continue;
-      LoopEdge edge{rows.corners[2 * f], rows.corners[2 * f + 1], rows.tags[f]};
+      LoopEdge edge{rows.nodes[2 * f], rows.nodes[2 * f + 1], rows.tags[f]};
       if (rows.domain[f] == Side::right) std::swap(edge.begin, edge.end);
       own.push_back(edge);
     }

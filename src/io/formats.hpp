@@ -35,6 +35,8 @@ struct Format {
   // Writes the Voronoi cells of a sphere, instead of `write`. Collective.
   void (*write_cells)(const SphereGrid& grid, SharedFile& file) = nullptr;
 
+  bool second_order = false;  // can contain elements of second order
+
   bool in_pieces() const { return !write && !write_cells; }
 };
 

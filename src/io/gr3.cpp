@@ -62,7 +62,7 @@ void append_elements(const NodeSource& nodes, SharedFile& file) {
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
         sink.text(" 3");
-        write_corners(rows.corners, e, nodes.contents().element_corners(), sink);
+        write_corners(rows.nodes, e, nodes.contents().element_nodes(), sink);
         sink.text("\n");
       }
     });

@@ -11,6 +11,9 @@ constexpr std::uint8_t vtk_vertex = 1;
 constexpr std::uint8_t vtk_line = 3;
 constexpr std::uint8_t vtk_triangle = 5;
 constexpr std::uint8_t vtk_tetrahedron = 10;
+constexpr std::uint8_t vtk_quadratic_edge = 21;
+constexpr std::uint8_t vtk_quadratic_triangle = 22;
+constexpr std::uint8_t vtk_quadratic_tetrahedron = 24;
 
 template <typename Value>
 void append_array(SharedFile& file, const std::vector<Value>& values) {
@@ -65,9 +68,20 @@ GridArray computed(const std::string& name, std::int64_t count, At at) {
 }
 
 std::uint8_t vtk_type(const Contents& all) {
-  constexpr std::array<std::uint8_t, 5> of_corners{0, vtk_vertex, vtk_line, vtk_triangle,
-                                                   vtk_tetrahedron};
-  return of_corners[static_cast<std::size_t>(all.cell_corners())];
+  switch (all.cell_nodes()) {
+    case 1:
+      return vtk_vertex;
+    case 2:
+      return vtk_line;
+    case 3:
+      return all.order == 2 ? vtk_quadratic_edge : vtk_triangle;
+    case 4:
+      return vtk_tetrahedron;
+    case 6:
+      return vtk_quadratic_triangle;
+    default:
+      return vtk_quadratic_tetrahedron;
+  }
 }
 
 GridArray field_array(const Contents& all, std::size_t field) {
@@ -139,22 +153,22 @@ GridArray zero_array(const Contents& all, int columns) {
 
 GridArray corner_array(const Contents& all) {
   const std::string name = "connectivity";
-  const int corners = all.cell_corners();
-  if (all.cells == Cells::elements) return of_elements(name, all, &ElementRows::corners, corners);
-  if (all.cells == Cells::facets) return of_facets(name, all, &FacetRows::corners, corners);
+  const int corners = all.cell_nodes();
+  if (all.cells == Cells::elements) return of_elements(name, all, &ElementRows::nodes, corners);
+  if (all.cells == Cells::facets) return of_facets(name, all, &FacetRows::nodes, corners);
   return computed<std::int64_t>(name, all.nodes, [](std::int64_t i) { return i; });
 }
 
 GridArray cell_ends(const Contents& all) {
   return computed<std::int64_t>(
       "offsets", all.cell_count(),
-      [corners = all.cell_corners()](std::int64_t i) { return corners * (i + 1); });
+      [corners = all.cell_nodes()](std::int64_t i) { return corners * (i + 1); });
 }
 
 GridArray cell_bounds(const Contents& all) {
   return computed<std::int64_t>(
       "offsets", all.cell_count() + 1,
-      [corners = all.cell_corners()](std::int64_t i) { return corners * i; });
+      [corners = all.cell_nodes()](std::int64_t i) { return corners * i; });
 }
 
 GridArray cell_types(const Contents& all) {

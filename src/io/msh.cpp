@@ -14,7 +14,15 @@
 namespace pnpbs::io {
 namespace {
 
-enum Type { line = 1, triangle = 2, tetrahedron = 4, point = 15 };
+enum Type {
+  line = 1,
+  triangle = 2,
+  tetrahedron = 4,
+  second_order_line = 8,
+  second_order_triangle = 9,
+  second_order_tetrahedron = 11,
+  point = 15
+};
 
 // A node that is kept in memory until its block is written. Tags of nodes and cells are those of
 // Writer::tag_of_block().
@@ -28,7 +36,7 @@ struct BufferedNode {
 struct BufferedCell {
   std::int32_t tag;
   std::int64_t number;
-  std::array<std::int64_t, 4> corners;
+  std::size_t index;  // in the nodes of all cells that are kept
 };
 
 // The writer of one file.
@@ -264,63 +272,71 @@ class Writer {
 
   void write_facets() {
     RowsByTag<BufferedCell> facets;
+    cell_nodes_.clear();
     nodes_.for_facets([&](const FacetRows& rows) {
       std::vector<BufferedCell> held;
       for (std::size_t f = 0; f < rows.tags.size(); ++f)
         held.push_back(
-            cell(tag_of_block(index_of(groups_.of(rows.tags[f]))), rows, all_.facet_corners(), f));
+            cell(tag_of_block(index_of(groups_.of(rows.tags[f]))), rows, all_.facet_nodes(), f));
       facets.add_window(std::move(held), file_.ranks());
     });
     facets.sort();
-    const int type = all_.dimension == 2 ? line : triangle;
     for (std::size_t g = 0; g < groups_.tagged.size(); ++g)
-      write_cells(g, type, all_.facet_corners(), facets);
+      write_cells(g, all_.facet_nodes(), facets);
   }
 
   // Keeps the elements of regions in memory, because one pass over all elements for each region
   // could be slow.
   void write_regions() {
     RowsByTag<BufferedCell> elements;
+    cell_nodes_.clear();
     nodes_.for_elements([&](const ElementRows& rows) {
       std::vector<BufferedCell> held;
       for (std::size_t e = 0; e < rows.regions.size(); ++e) {
         const std::int32_t block = block_of_region(rows.regions[e]);
         if (block == NodeDataByBlock::kInside) continue;
-        held.push_back(cell(block, rows, all_.element_corners(), e));
+        held.push_back(cell(block, rows, all_.element_nodes(), e));
         held.back().number += all_.facets;
       }
       elements.add_window(std::move(held), file_.ranks());
     });
     elements.sort();
     for (std::size_t g = groups_.tagged.size(); g < group_count(); ++g)
-      write_cells(g, type_of_elements(), all_.element_corners(), elements);
+      write_cells(g, all_.element_nodes(), elements);
   }
 
-  // Returns facet or element i of the rows.
+  // Keeps the nodes of facet or element i of the rows.
   template <class Rows>
-  static BufferedCell cell(std::int32_t block, const Rows& rows, int corners, std::size_t i) {
-    BufferedCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1, {}};
-    const auto n = static_cast<std::size_t>(corners);
-    std::copy_n(&rows.corners[n * i], n, cell.corners.begin());
+  BufferedCell cell(std::int32_t block, const Rows& rows, int nodes, std::size_t i) {
+    const auto n = static_cast<std::size_t>(nodes);
+    const BufferedCell cell{block, rows.first + static_cast<std::int64_t>(i) + 1,
+                            cell_nodes_.size() / n};
+    const auto first = rows.nodes.begin() + static_cast<std::ptrdiff_t>(n * i);
+    cell_nodes_.insert(cell_nodes_.end(), first, first + nodes);
     return cell;
   }
 
-  void write_cells(std::size_t g, int type, int corners, const RowsByTag<BufferedCell>& cells) {
-    begin_block(group(g), std::to_string(type), group(g).rows.count);
+  void write_cells(std::size_t g, int nodes, const RowsByTag<BufferedCell>& cells) {
+    begin_block(group(g), std::to_string(type_of(nodes)), group(g).rows.count);
     cells.append(tag_of_block(g), file_, [&](const BufferedCell& cell, Sink& sink) {
       sink.number(cell.number);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
-        sink.text(" ");
-        sink.number(cell.corners[k] + 1);
-      }
+      write_msh_nodes(cell_nodes_, cell.index, nodes, sink);
       sink.text("\n");
     });
   }
 
-  int type_of_elements() const { return all_.dimension == 2 ? triangle : tetrahedron; }
+  // Returns the type of facets and elements with so many nodes.
+  Type type_of(int nodes) const {
+    if (all_.order == 2)
+      return nodes == 3   ? second_order_line
+             : nodes == 6 ? second_order_triangle
+                          : second_order_tetrahedron;
+    return nodes == 2 ? line : nodes == 3 ? triangle : tetrahedron;
+  }
 
   void write_inside() {
-    begin_block(groups_.inside, std::to_string(type_of_elements()), groups_.inside.rows.count);
+    begin_block(groups_.inside, std::to_string(type_of(all_.element_nodes())),
+                groups_.inside.rows.count);
     nodes_.for_elements([&](const ElementRows& rows) {
       file_.append([&](Sink& sink) {
         std::int64_t number = all_.facets + rows.first;
@@ -328,7 +344,7 @@ class Writer {
           ++number;
           if (all_.with_regions && rows.regions[e] != 0) continue;
           sink.number(number);
-          write_corners(rows.corners, e, all_.element_corners(), sink);
+          write_msh_nodes(rows.nodes, e, all_.element_nodes(), sink);
           sink.text("\n");
         }
       });
@@ -342,6 +358,7 @@ class Writer {
   std::vector<std::int64_t> node_counts_;  // nodes of each group
   std::int64_t inside_nodes_ = 0;          // nodes of no group
   RowsByTag<BufferedNode> held_nodes_;
+  std::vector<std::int64_t> cell_nodes_;  // of the facets or elements that are kept in memory
   NodeDataByBlock node_data_;
 };
 

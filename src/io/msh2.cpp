@@ -18,6 +18,17 @@ constexpr std::string_view point_code = " 15 2 ";
 constexpr std::string_view line_code = " 1 2 ";
 constexpr std::string_view triangle_code = " 2 2 ";
 constexpr std::string_view tetrahedron_code = " 4 2 ";
+constexpr std::string_view second_order_line_code = " 8 2 ";
+constexpr std::string_view second_order_triangle_code = " 9 2 ";
+constexpr std::string_view second_order_tetrahedron_code = " 11 2 ";
+
+std::string_view code_of(int nodes, int order) {
+  if (order == 2)
+    return nodes == 3   ? second_order_line_code
+           : nodes == 6 ? second_order_triangle_code
+                        : second_order_tetrahedron_code;
+  return nodes == 2 ? line_code : nodes == 3 ? triangle_code : tetrahedron_code;
+}
 
 void write_points(const NodeSource& nodes, SharedFile& file) {
   file.append_text("$Nodes\n" + std::to_string(nodes.contents().nodes) + "\n");
@@ -53,11 +64,11 @@ void write_facets(const NodeSource& nodes, SharedFile& file) {
       for (std::size_t f = 0; f < rows.tags.size(); ++f) {
         const std::int64_t tag = rows.tags[f];
         sink.number(++number);
-        sink.text(all.dimension == 2 ? line_code : triangle_code);
+        sink.text(code_of(all.facet_nodes(), all.order));
         sink.number(tag);  // physical group
         sink.text(" ");
         sink.number(std::abs(tag));  // geometric entity
-        write_corners(rows.corners, f, all.facet_corners(), sink);
+        write_msh_nodes(rows.nodes, f, all.facet_nodes(), sink);
         sink.text("\n");
       }
     });
@@ -71,14 +82,14 @@ void write_elements(const NodeSource& nodes, const MshGroups& groups, SharedFile
       std::int64_t number = all.facets + rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
-        sink.text(all.dimension == 2 ? triangle_code : tetrahedron_code);
+        sink.text(code_of(all.element_nodes(), all.order));
         const MshGroup* region =
             all.with_regions ? group_of(groups.regions, rows.regions[e]) : nullptr;
         const std::int64_t group = (region ? *region : groups.inside).number;
         sink.number(group);
         sink.text(" ");
         sink.number(group);
-        write_corners(rows.corners, e, all.element_corners(), sink);
+        write_msh_nodes(rows.nodes, e, all.element_nodes(), sink);
         sink.text("\n");
       }
     });

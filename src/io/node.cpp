@@ -20,7 +20,7 @@ void write_node(const NodeSource& nodes, SharedFile& file) {
 
 void write_ele(const NodeSource& nodes, SharedFile& file) {
   const Contents& all = nodes.contents();
-  const int corners = all.element_corners();
+  const int corners = all.element_nodes();
   file.append_text(std::to_string(all.elements) + " " + std::to_string(corners) +
                    (all.with_regions ? " 1\n" : " 0\n"));
   nodes.for_elements([&](const ElementRows& rows) {
@@ -28,7 +28,7 @@ void write_ele(const NodeSource& nodes, SharedFile& file) {
       std::int64_t number = rows.first;
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.number(++number);
-        write_corners(rows.corners, e, corners, sink);
+        write_corners(rows.nodes, e, corners, sink);
         if (all.with_regions) {
           sink.text(" ");
           sink.number(rows.regions[e]);
@@ -49,7 +49,7 @@ void write_face(const NodeSource& nodes, SharedFile& file) {
       std::int64_t number = rows.first;
       for (std::size_t f = 0; f < rows.tags.size(); ++f) {
         sink.number(++number);
-        write_corners(rows.corners, f, all.facet_corners(), sink);
+        write_corners(rows.nodes, f, all.facet_nodes(), sink);
         sink.text(" ");
         sink.number(rows.tags[f]);
         sink.text("\n");

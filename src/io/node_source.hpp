@@ -25,6 +25,9 @@ struct Contents {
   int coordinates = 2;         // number of coordinates of the nodes; 3 on a sphere, too
   bool is_piece = false;       // one of several pieces, which is numbered by itself and has ghosts
   bool with_elements = false;  // with elements and facets
+  // 2: nodes include a mid node for each edge, after all others, and elements and facets have those
+  // of their edges after their corners, in the order of VTK
+  int order = 1;
   Cells cells = Cells::nodes;  // facets for surface meshes, which have no elements
   bool with_regions = false;   // elements have tags of regions
   bool is_beside = false;      // a grid of the facets that belongs to a grid of the elements
@@ -34,21 +37,24 @@ struct Contents {
 
   std::size_t field_count() const { return fields ? fields->size() : 0; }
 
-  int cell_corners() const {
-    return cells == Cells::nodes ? 1 : cells == Cells::elements ? dimension + 1 : dimension;
+  int cell_nodes() const {
+    return cells == Cells::nodes ? 1 : cells == Cells::elements ? element_nodes() : facet_nodes();
   }
   std::int64_t cell_count() const {
     return cells == Cells::nodes ? nodes : cells == Cells::elements ? elements : facets;
   }
-  int element_corners() const { return dimension + 1; }
-  int facet_corners() const { return dimension; }
+  int element_nodes() const { return nodes_of(dimension + 1); }
+  int facet_nodes() const { return nodes_of(dimension); }
+
+  // Returns the number of nodes of a cell with so many corners.
+  int nodes_of(int corners) const { return order == 2 ? corners * (corners + 1) / 2 : corners; }
 };
 
 // Nodes of a window.
 struct NodeRows {
   std::int64_t first = 0;          // number of the first node
   std::vector<double> x;           // [nodes][coordinates]
-  std::vector<std::int64_t> ids;   // [nodes]
+  std::vector<std::int64_t> ids;   // [nodes], -1 for mid nodes
   std::vector<std::int32_t> tags;  // [nodes], 0: inner node
   // [nodes], tag of the region; only if with_regions, not for pieces
   std::vector<std::int32_t> regions;
@@ -65,8 +71,8 @@ struct FieldRows {
 // Elements of a window.
 struct ElementRows {
   std::int64_t first = 0;
-  std::vector<std::int64_t> corners;  // [elements][dimension + 1], numbers of nodes
-  std::vector<float> quality;  // [elements], 2 r_in / R of triangles, 3 r_in / R of tetrahedra
+  std::vector<std::int64_t> nodes;  // [elements][element_nodes()], numbers
+  std::vector<float> quality;       // [elements], 2 r_in / R of triangles, 3 r_in / R of tetrahedra
   std::vector<std::int32_t> regions;  // [elements], 0: no tag; only if with_regions
 };
 
@@ -76,9 +82,9 @@ enum class Side : std::uint8_t { left, right, both };
 // Facets of a window, including those on inner curves and surfaces.
 struct FacetRows {
   std::int64_t first = 0;
-  std::vector<std::int64_t> corners;  // [facets][dimension], numbers of nodes
-  std::vector<std::int32_t> tags;     // [facets]
-  std::vector<float> quality;         // [facets], 2 r_in / R; in space only
+  std::vector<std::int64_t> nodes;  // [facets][facet_nodes()], numbers
+  std::vector<std::int32_t> tags;   // [facets]
+  std::vector<float> quality;       // [facets], 2 r_in / R; in space only
   std::vector<Side> domain;  // [facets], side of the domain; in the plane only, not for pieces
 };
 

@@ -9,16 +9,19 @@
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
 #include "results/element_regions.hpp"
+#include "results/mid_nodes.hpp"
 #include "results/results.hpp"
 
 namespace pnpbs::io {
 
-// The source for all files that are not in pieces.
+// The source for all files that are not in pieces. With elements of second order, the mid nodes of
+// edges follow the nodes in the order of their numbers.
 template <int Dim>
 class NodesById : public NodeSource {
  public:
-  // Prepares the results; `fields` must outlive this object. Collective.
-  NodesById(Results<Dim>& results, bool elements, const std::vector<OutputField>& fields);
+  // Prepares the results; `fields` must outlive this object. `order` is that of the elements, 0
+  // without any. With order 2 the fields have values at ghosts, too. Collective.
+  NodesById(Results<Dim>& results, int order, const std::vector<OutputField>& fields);
 
   void for_nodes(const std::function<void(const NodeRows&)>& visit) const override;
   void for_field(std::size_t field,
@@ -40,7 +43,16 @@ class NodesById : public NodeSource {
   template <class Row, class Label>
   std::vector<Row> brought(std::vector<Row> rows, const Label& first_label) const;
   template <class Rows>
-  void number_rows(Rows& rows, std::size_t count, std::int64_t& before) const;
+  void number_rows(Rows& rows, const std::vector<std::int64_t>& mids, std::size_t count,
+                   std::int64_t& before) const;
+  template <std::size_t mids>
+  void for_element_rows(const std::function<void(const ElementRows&)>& visit) const;
+  template <std::size_t mids>
+  void for_facet_rows(const std::function<void(const FacetRows&)>& visit) const;
+  template <std::size_t mids, std::size_t corners>
+  std::array<std::int64_t, mids> mids_of(const std::array<std::int64_t, corners>& places) const;
+  template <class Row, class RowsOf, class Visit>
+  void for_mid_windows(const RowsOf& rows_of, const Visit& visit) const;
   std::int64_t first_place_in(std::size_t part) const;
   std::int64_t label(std::int64_t place) const;
   template <std::size_t n>
@@ -49,7 +61,10 @@ class NodesById : public NodeSource {
 
   const Results<Dim>& results_;
   const Communicator& comm_;
-  std::int64_t owned_ = 0;                                // number of owned nodes
+  std::int64_t owned_ = 0;               // number of owned nodes
+  std::int64_t node_count_ = 0;          // of all ranks, without mid nodes
+  const MidNodes* mid_nodes_ = nullptr;  // set for elements of second order
+  std::vector<std::size_t> own_mids_;    // mid nodes that this rank writes, in the order of numbers
   mutable std::optional<ElementRegions<Dim>> region_of_;  // set if with_regions
   // With several ranks, the label of a node is its id. A single rank uses indices, which are the
   // numbers already.

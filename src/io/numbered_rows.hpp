@@ -3,6 +3,7 @@
 // elements.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,18 @@ inline void write_corners(const std::vector<std::int64_t>& corners, std::size_t 
   for (std::size_t k = n * i; k < n * (i + 1); ++k) {
     sink.text(" ");
     sink.number(corners[k] + 1);
+  }
+}
+
+// Writes the nodes of row i as write_corners() does, in the order of Gmsh: the last two mid nodes
+// of a tetrahedron of second order change places.
+inline void write_msh_nodes(const std::vector<std::int64_t>& nodes, std::size_t i, int each,
+                            Sink& sink) {
+  constexpr std::array<std::size_t, 10> kOfGmsh{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  const auto n = static_cast<std::size_t>(each);
+  for (std::size_t k = 0; k < n; ++k) {
+    sink.text(" ");
+    sink.number(nodes[n * i + (n == 10 ? kOfGmsh[k] : k)] + 1);
   }
 }
 

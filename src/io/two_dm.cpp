@@ -21,7 +21,7 @@ void append_triangles(const NodeSource& nodes, SharedFile& file) {
       for (std::size_t e = 0; e < rows.quality.size(); ++e) {
         sink.text("E3T ");
         sink.number(++number);
-        write_corners(rows.corners, e, all.element_corners(), sink);
+        write_corners(rows.nodes, e, all.element_nodes(), sink);
         sink.text(" ");
         sink.number(all.with_regions ? block_of_tag(rows.regions[e]) : 1);
         sink.text("\n");

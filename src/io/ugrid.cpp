@@ -118,7 +118,7 @@ class UgridWriter {
     add("mesh_face_nodes", NumberType::int32, {kFaces, kThree},
         {{"cf_role", "face_node_connectivity"}, {"start_index", std::int32_t{0}}}, [this] {
           nodes_.for_elements([&](const ElementRows& rows) {
-            append(std::vector<std::int32_t>(rows.corners.begin(), rows.corners.end()));
+            append(std::vector<std::int32_t>(rows.nodes.begin(), rows.nodes.end()));
           });
         });
     add("quality", NumberType::real32, {kFaces}, of("face", "2 r_in / R of the triangle"),
@@ -132,8 +132,8 @@ class UgridWriter {
     add("mesh_boundary_nodes", NumberType::int32, {kEdges, kTwo},
         {{"cf_role", "boundary_node_connectivity"}, {"start_index", std::int32_t{0}}}, [this] {
           append_of_edges([](const FacetRows& rows, std::size_t e, std::vector<std::int32_t>& to) {
-            to.push_back(static_cast<std::int32_t>(rows.corners[2 * e]));
-            to.push_back(static_cast<std::int32_t>(rows.corners[2 * e + 1]));
+            to.push_back(static_cast<std::int32_t>(rows.nodes[2 * e]));
+            to.push_back(static_cast<std::int32_t>(rows.nodes[2 * e + 1]));
           });
         });
     add("boundary_tag", NumberType::int32, {kEdges}, of("boundary", "tag of the curve"), [this] {

@@ -2,6 +2,7 @@
 #include "io/write_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -140,7 +141,7 @@ void RankPiece<Dim>::for_elements(const std::function<void(const ElementRows&)>&
     ElementRows rows;
     rows.first = before;
     results_.for_elements(begin, end, [&](const auto& places) {
-      for (const std::int64_t place : places) rows.corners.push_back(number(place));
+      for (const std::int64_t place : places) rows.nodes.push_back(number(place));
       rows.quality.push_back(element_quality(results_, places));
       if (contents_.with_regions) rows.regions.push_back(region_of(places));
     });
@@ -153,7 +154,7 @@ template <int Dim>
 void RankPiece<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
   FacetRows rows;
   const auto add = [&](const auto& places, std::int32_t tag) {
-    for (const std::int64_t place : places) rows.corners.push_back(number(place));
+    for (const std::int64_t place : places) rows.nodes.push_back(number(place));
     rows.tags.push_back(tag);
     rows.quality.push_back(facet_quality(results_, places));
   };
@@ -206,10 +207,11 @@ void add_heavy_data(const FileRequest& of, std::vector<FileRequest>& requests) {
   if (std::filesystem::path(heavy).filename().string().find(':') != std::string::npos)
     refuse("XDMF cannot refer to a file with ':' in its name, as '" + heavy +
            "' would have beside '" + path + "': choose another name");
-  requests.push_back({heavy, &heavy_data_format(), of.elements, of.facets});
+  requests.push_back({heavy, &heavy_data_format(), of.order, of.facets});
 }
 
-void require_possible(const std::string& path, const Format& format, bool elements, int dimension) {
+void require_possible(const std::string& path, const Format& format, int order, int dimension) {
+  const bool elements = order > 0;
   if (format.of == Of::bodies && dimension == 2)
     refuse(std::string("a .") + format.name + " file is for bodies, not for the plane: '" + path +
            "'");
@@ -222,6 +224,9 @@ void require_possible(const std::string& path, const Format& format, bool elemen
   if (format.by_hdf5) require_result_indices(path, format);
   if (elements && (format.elements == Elements::never || format.elements == Elements::regions))
     refuse(std::string("a .") + format.name + " file cannot contain elements: '" + path + "'");
+  if (order == 2 && !format.second_order)
+    refuse(std::string("a .") + format.name + " file cannot contain elements of second order: '" +
+           path + "'; .msh, .msh2, .vtu and .vtkhdf files can");
   if (elements && format.elements == Elements::beside && path == "-")
     refuse(
         "elements need a second file, which standard output does not have: request the format ele "
@@ -269,14 +274,22 @@ class Writing {
   }
 
   void add_file(const FileRequest& request) {
-    std::optional<NodesById<Dim>>& nodes = request.elements ? with_elements_ : nodes_only_;
-    if (!nodes) nodes.emplace(results_, request.elements, fields_.all());
+    std::optional<NodesById<Dim>>& nodes = by_order_[static_cast<std::size_t>(request.order)];
+    if (!nodes)
+      nodes.emplace(results_, request.order,
+                    request.order == 2 ? fields_with_ghosts() : fields_.all());
     SharedFile& file = open(comm(), request.path);
     if (request.facets)
       request.format->write(FacetGrid(*nodes), file);
     else
       request.format->write(*nodes, file);
     file.close();
+  }
+
+  // Returns the fields with values at ghosts. Collective.
+  const std::vector<OutputField>& fields_with_ghosts() {
+    if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
+    return fields_with_ghosts_;
   }
 
   void add_grid(const FileRequest& request) {
@@ -290,10 +303,10 @@ class Writing {
 
   // Writes the piece of each rank. If one rank throws, all ranks throw.
   void add_piece(const FileRequest& request) {
-    prepare(results_, request.elements);
-    if (fields_with_ghosts_.empty()) fields_with_ghosts_ = fields_.with_ghosts(results_);
+    prepare(results_, request.order > 0);
+    fields_with_ghosts();
     collective_try(*comm(), [&] {
-      const RankPiece<Dim> piece(results_, request.elements, fields_with_ghosts_);
+      const RankPiece<Dim> piece(results_, request.order > 0, fields_with_ghosts_);
       like_ = piece.contents();
       SharedFile& file = open(serial_communicator(), piece_path(request.path, comm()->rank()));
       if (request.facets) {
@@ -325,12 +338,12 @@ class Writing {
   const Monitoring& monitoring_;
   Results<Dim>& results_;
   const OutputFields& fields_;
-  std::vector<OutputField> fields_with_ghosts_;  // computed for the first file in pieces
+  std::vector<OutputField> fields_with_ghosts_;  // computed for the first file that needs them
   const std::int64_t nodes_ = results_.global_count();
   std::size_t expected_, done_ = 0;
-  std::optional<NodesById<Dim>> with_elements_, nodes_only_;
-  std::unique_ptr<SphereGrid> grid_;  // built for the first file of cells
-  Contents like_;                     // contents of this rank's piece
+  std::array<std::optional<NodesById<Dim>>, 3> by_order_;  // sources by the order of their elements
+  std::unique_ptr<SphereGrid> grid_;                       // built for the first file of cells
+  Contents like_;                                          // contents of this rank's piece
   std::vector<std::unique_ptr<SharedFile>> files_;
 };
 
@@ -373,11 +386,12 @@ void publish(const Communicator& comm, std::span<const std::unique_ptr<SharedFil
   publish_together(own, [&](const std::function<void()>& step) { collective_try(comm, step); });
 }
 
-void add_request(const std::string& path, const std::string& format_name, bool elements,
+void add_request(const std::string& path, const std::string& format_name, int order,
                  const Requested& of, std::vector<FileRequest>& requests) {
   if (path.empty()) refuse("the name of a file is empty");
   const Format& format = format_of(path, format_name);
-  require_possible(path, format, elements, of.dimension);
+  require_possible(path, format, order, of.dimension);
+  const bool elements = order > 0;
   if (format.write == write_gadget && of.kind == GeometryKind::sphere)
     refuse("a .hdf5 file is for gas in the plane or in space, not on a sphere: '" + path + "'");
   if (format.of == Of::spheres && of.kind != GeometryKind::sphere)
@@ -389,17 +403,18 @@ void add_request(const std::string& path, const std::string& format_name, bool e
       format.elements == Elements::always ||
       (format.elements == Elements::regions && of.has_elements) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
-  std::vector<FileRequest> grids{{path, &format, holds_elements}};
+  const int held = holds_elements ? std::max(order, 1) : 0;
+  std::vector<FileRequest> grids{{path, &format, held}};
   if (elements && format.elements == Elements::grid && of.has_elements && has_room_beside(path))
-    grids.push_back({facets_path(path), &format, true, true});
+    grids.push_back({facets_path(path), &format, held, true});
   for (const FileRequest& grid : grids) {
     requests.push_back(grid);
     if (format.write == write_xdmf) add_heavy_data(grid, requests);
   }
   if (!elements || format.elements != Elements::beside) return;
-  requests.push_back({with_extension(path, "ele"), format_by_name("ele"), true});
+  requests.push_back({with_extension(path, "ele"), format_by_name("ele"), 1});
   if (of.dimension == 3)
-    requests.push_back({with_extension(path, "face"), format_by_name("face"), true});
+    requests.push_back({with_extension(path, "face"), format_by_name("face"), 1});
 }
 
 std::string piece_path(const std::string& path, int rank) {

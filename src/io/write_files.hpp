@@ -18,7 +18,7 @@ namespace pnpbs::io {
 struct FileRequest {
   std::string path;
   const Format* format;
-  bool elements;
+  int order;            // of the elements, 1 or 2; 0: without elements
   bool facets = false;  // the file has the facets of a grid, not its elements
 };
 
@@ -32,10 +32,10 @@ struct Requested {
 Requested requested_of(const Placement& placement);
 
 // Adds the request for a file, and for the files of elements or facets that belong to it. The
-// format is given by its name or, if that is empty, by the extension. Throws
-// Error(ErrorKind::argument).
-void add_request(const std::string& path, const std::string& format, bool elements,
-                 const Requested& of, std::vector<FileRequest>& requests);
+// format is given by its name or, if that is empty, by the extension. `order` is that of the
+// elements, 0 if none are requested. Throws Error(ErrorKind::argument).
+void add_request(const std::string& path, const std::string& format, int order, const Requested& of,
+                 std::vector<FileRequest>& requests);
 // Throws if a format needs HDF5 and it is not available. Collective; if one rank throws, all ranks
 // throw.
 void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicator& comm);

@@ -16,7 +16,7 @@ namespace {
 // Returns the corners with one row for each cell.
 PlacedArray placed_cells(const Contents& all) {
   GridArray cells = corner_array(all);
-  cells.columns = all.cell_corners();
+  cells.columns = all.cell_nodes();
   cells.rows /= cells.columns;
   return {"/cells", std::move(cells), true};
 }
@@ -76,7 +76,7 @@ std::string attributes(const std::string& heavy, const std::string& center,
 std::string topology(const Contents& all) {
   const char* const kinds[] = {"", "Polyvertex\" NodesPerElement=\"1",
                                "Polyline\" NodesPerElement=\"2", "Triangle", "Tetrahedron"};
-  return std::string("      <Topology TopologyType=\"") + kinds[all.cell_corners()] +
+  return std::string("      <Topology TopologyType=\"") + kinds[all.cell_nodes()] +
          "\" NumberOfElements=\"" + std::to_string(all.cell_count()) + "\">\n";
 }
 

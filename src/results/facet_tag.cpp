@@ -21,21 +21,20 @@ std::vector<std::int32_t> patches_at(const Level<3>& level, std::int64_t i) {
   return patches;
 }
 
-// Returns the patches that all three nodes lie on, without repetition.
+}  // namespace
+
 std::vector<std::int32_t> common_patches(const Level<3>& level,
-                                         const std::array<std::int64_t, 3>& nodes) {
+                                         std::span<const std::int64_t> nodes) {
   std::vector<std::int32_t> common = patches_at(level, nodes[0]);
   std::ranges::sort(common);
   common.erase(std::unique(common.begin(), common.end()), common.end());
-  for (const std::int64_t i : {nodes[1], nodes[2]}) {
+  for (const std::int64_t i : nodes.subspan(1)) {
     const std::vector<std::int32_t> there = patches_at(level, i);
     std::erase_if(
         common, [&](std::int32_t patch) { return std::ranges::find(there, patch) == there.end(); });
   }
   return common;
 }
-
-}  // namespace
 
 std::int32_t facet_tag(const Level<3>& level, const std::array<std::int64_t, 3>& nodes) {
   const Nodes<3>& all = level.nodes;

@@ -4,10 +4,16 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "level/level.hpp"
 
 namespace pnpbs {
+
+// Returns the patches that all these nodes lie on, without repetition. There is at least one node.
+std::vector<std::int32_t> common_patches(const Level<3>& level,
+                                         std::span<const std::int64_t> nodes);
 
 // Returns the tag of a triangle. `nodes` are its corners, counter-clockwise as seen from outside,
 // the one with the smallest id first. If a corner lies inside a surface, its tag is used; if all

@@ -15,6 +15,7 @@
 #include "level/volume/settled_elements.hpp"
 #include "quality/measured_nodes.hpp"
 #include "results/element_angles.hpp"
+#include "results/mid_nodes.hpp"
 
 namespace pnpbs {
 
@@ -116,7 +117,8 @@ void Results<Dim>::agree_on_derived() noexcept {
   derived = mixed(derived ^ static_cast<std::uint64_t>(level_->tree->hops()));
   for (const bool is_there :
        {level_->ghosts.are_exact(level_->nodes, kStarHops), lists_stamp_ == stamp(),
-        stars_stamp_ == stamp(), exchange_stamp_ == stamp(), quality_stamp_ == stamp()})
+        stars_stamp_ == stamp(), exchange_stamp_ == stamp(), quality_stamp_ == stamp(),
+        mid_nodes_stamp_ == stamp()})
     derived = mixed(derived ^ std::uint64_t{is_there});
   bool agreed = false;
   try {
@@ -124,6 +126,15 @@ void Results<Dim>::agree_on_derived() noexcept {
   } catch (...) {  // the ranks can no longer communicate
   }
   if (!agreed) level_->forget_derived();
+}
+
+template <int Dim>
+const MidNodes& Results<Dim>::mid_nodes() {
+  prepare_stars();
+  if (mid_nodes_stamp_ == level_->stamp()) return *mid_nodes_;
+  mid_nodes_ = std::make_shared<const MidNodes>(make_mid_nodes(*this));
+  mid_nodes_stamp_ = level_->stamp();
+  return *mid_nodes_;
 }
 
 template <int Dim>

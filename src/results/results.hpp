@@ -19,6 +19,8 @@
 
 namespace pnpbs {
 
+class MidNodes;
+
 // Results in the plane or in space. Calls with `visit` use result indices.
 template <int Dim>
 class Results : public NodalResults {
@@ -47,6 +49,9 @@ class Results : public NodalResults {
   void prepare_lists() override;
   void prepare_stars() override;
   void agree_on_derived() noexcept override;
+  // Returns the mid nodes of elements of second order (mid_nodes.hpp). All ranks must call it, and
+  // if one rank throws, all ranks throw.
+  const MidNodes& mid_nodes();
   // Calls visit(corners) for every element, a triangle or a tetrahedron, once over all ranks: at
   // the owner of its node with the smallest id, which is the first corner. Requires
   // prepare_stars().
@@ -139,6 +144,8 @@ class Results : public NodalResults {
   mutable std::array<View<double>, 3> on_sphere_;
   mutable View<double> spacing_on_sphere_;
   mutable LevelStamp on_sphere_stamp_;
+  std::shared_ptr<const MidNodes> mid_nodes_;
+  LevelStamp mid_nodes_stamp_;
 };
 
 // A scope in which results show another level, such as one under construction.

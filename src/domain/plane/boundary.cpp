@@ -102,6 +102,7 @@ class BoundaryDiscretizer {
       if (bad.empty()) break;
       if (round == kMaxRounds || !halve(bad)) reject(bad);
     }
+    find_middles();
     warn_of_halved_edges();
     ask_spacing();
     require_resolvable_boundary();
@@ -271,6 +272,19 @@ class BoundaryDiscretizer {
                 "curves are too close together to place nodes on them: " + list_text(names) +
                     (edges.empty() ? MessageText()
                                    : " near " + point_text(positions_[ends_[edges[0]][0]])));
+  }
+
+  void find_middles() {
+    boundary_.middles.clear();
+    for (std::size_t c = 0; c < tracks_.size(); ++c) {
+      std::vector<double> between;
+      for (std::size_t k = 0; k + 1 < stations_[c].size(); ++k)
+        between.push_back(0.5 * (stations_[c][k] + stations_[c][k + 1]));
+      for (const Point<2>& x : tracks_[c].points_at(between)) boundary_.middles.push_back(x);
+    }
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e)
+      if (is_straight(e))
+        boundary_.middles[e] = middle_of<2>(positions_[ends_[e][0]], positions_[ends_[e][1]]);
   }
 
   // ------------------------------------------------------------ warnings

@@ -17,7 +17,8 @@ namespace pnpbs {
 // Nodes and edges of the boundary. Nodes are corners first, in the domain's order, then those of
 // each curve, then fixed nodes. Edges connect consecutive nodes of a curve.
 struct Boundary : BoundaryMesh<2> {
-  std::int64_t first_fixed;  // index of the first fixed node that is on no curve
+  std::int64_t first_fixed;       // index of the first fixed node that is on no curve
+  std::vector<Point<2>> middles;  // of each edge, the point of its curve between the two nodes
   std::vector<Warning> warnings;
 };
 

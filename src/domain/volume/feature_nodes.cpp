@@ -222,6 +222,35 @@ FeatureNodes place_feature_nodes(const BoundaryMesh<3>& mesh, const Features& fe
   return found;
 }
 
+FeatureNodes middles_between(const BoundaryMesh<3>& mesh, const Features& features,
+                             const FeatureNodes& laid) {
+  const std::vector<std::vector<Point<3>>> lines = polylines(mesh, features);
+  FeatureNodes middles;
+  for (std::size_t c = 0; c < lines.size(); ++c) {
+    const FeatureCurve& curve = features.curves[c];
+    const PolylineTrack<3> track(lines[c], curve.closed());
+    const std::vector<std::int32_t>& nodes = laid.along[c];
+    std::vector<double> stations{0};
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+      const FeatureNode& node = laid.nodes[index(nodes[k])];
+      const std::size_t e = index(node.edge - curve.first_edge);
+      stations.push_back(track.vertex_stations()[e] + distance<3>(lines[c][e], node.position));
+    }
+    stations.push_back(track.length());
+    std::vector<double> between;
+    for (std::size_t k = 0; k + 1 < stations.size(); ++k)
+      between.push_back(0.5 * (stations[k] + stations[k + 1]));
+    std::vector<std::int32_t>& along = middles.along.emplace_back();
+    track.for_places(between, [&](std::size_t, std::size_t segment, double fraction) {
+      along.push_back(static_cast<std::int32_t>(middles.nodes.size()));
+      middles.nodes.push_back({track.point(segment, fraction), curve.tag, -1,
+                               static_cast<std::int32_t>(c),
+                               curve.first_edge + static_cast<std::int32_t>(segment)});
+    });
+  }
+  return middles;
+}
+
 namespace {
 
 // The sides of a level set's edge at a node.

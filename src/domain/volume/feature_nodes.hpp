@@ -46,6 +46,11 @@ FeatureNodes place_feature_nodes(const BoundaryMesh<3>& mesh, const Features& fe
                                  const SpacingEvaluator<3>& spacing,
                                  const NodeLimit& limit = (std::int64_t{1} << 31) - 2);
 
+// Returns the nodes halfway between consecutive ones: along[c][k] is between the nodes k and k + 1
+// of curve c of `laid`.
+FeatureNodes middles_between(const BoundaryMesh<3>& mesh, const Features& features,
+                             const FeatureNodes& laid);
+
 // Moves nodes on the feature curves of level sets from the chords between mesh vertices to the true
 // edges of the level set. A node stays if no edge is found within `reach`.
 void project_to_creases(const ResolvedVolume& volume, FeatureNodes& laid, double reach);
