@@ -212,6 +212,9 @@ module pnpbs
     procedure :: get_element_tags => placement_get_element_tags
     procedure :: incident_element_count => placement_incident_element_count
     procedure :: get_incident_elements => placement_get_incident_elements
+    procedure :: edge_count => placement_edge_count
+    procedure :: get_edges => placement_get_edges
+    procedure :: find_edges => placement_find_edges
     procedure :: boundary_triangle_count => placement_boundary_triangle_count
     procedure :: get_boundary_triangles => placement_get_boundary_triangles
     procedure :: boundary_edge_count => placement_boundary_edge_count
@@ -2542,6 +2545,82 @@ contains
     end do
   end subroutine
 
+  !> Returns the number of edges that get_edges returns. Collective.
+  !>   straight  optional: edges of all ranks that are straight lest an element folds
+  subroutine placement_edge_count(self, count, straight, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int64_t), intent(out), optional :: straight
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: lines
+    count = 0
+    lines = 0
+    call conclude('placement%edge_count', &
+                  c_placement_get_edges(self%c, 0_c_int64_t, count, lines, c_null_ptr, &
+                                        c_null_ptr, c_null_ptr), stat, errmsg)
+    if (present(straight)) straight = lines
+  end subroutine
+
+  !> Copies the edges of the elements of this rank, and of its facets, with a mid node on each, for
+  !> elements of second order. Mid nodes on boundary and inner curves and surfaces lie on these,
+  !> and on spheres all of them do. Where an element would fold, its edges are straight. Edges,
+  !> numbers and mid nodes are the same for any number of ranks, several of which may have an edge.
+  !> Collective.
+  !>   ends       optional, (2, count): local indices, ascending
+  !>   numbers    optional, (count): 0, 1, ... over all ranks, in the order of the ids of the ends
+  !>   midpoints  optional, (dim, count): positions of the mid nodes
+  subroutine placement_get_edges(self, ends, numbers, midpoints, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout), optional :: ends(:,:)
+    integer(c_int64_t), intent(inout), optional :: numbers(:)
+    real(c_double), intent(inout), optional :: midpoints(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_ends, a_numbers, a_midpoints
+    integer(c_int64_t) :: room(3), count, straight, e
+    integer :: dim
+    integer(c_int) :: status
+    dim = dimension_of(self, given)
+    call given%place_int64_columns('ends', ends, 2, a_ends, room(1))
+    call given%place_int64('numbers', numbers, a_numbers, room(2))
+    call given%place_real_columns('midpoints', midpoints, dim, a_midpoints, room(3))
+    status = c_placement_get_edges(self%c, given%capacity(minval(room)), count, straight, &
+                                   a_ends, a_numbers, a_midpoints)
+    call conclude('placement%get_edges', status, stat, errmsg, given)
+    if (status < 0 .or. .not. present(ends)) return
+    do e = 1, count
+      call count_from_one(ends(:, e))
+    end do
+  end subroutine
+
+  !> Finds the edges of elements or facets among those of get_edges. Those of a triangle with the
+  !> corners 1, 2, 3 are 12, 23, 13; a tetrahedron has also 14, 24, 34. Collective.
+  !>   cells  (corners, n): local indices, as other procedures return them
+  !>   edges  (corners * (corners - 1) / 2, n): indices of edges; 0 for those that this rank does
+  !>          not have
+  subroutine placement_find_edges(self, cells, edges, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(in) :: cells(:,:)
+    integer(c_int64_t), intent(inout) :: edges(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_edges ! only checked
+    integer(c_int64_t) :: room, n
+    integer :: corners
+    integer(c_int) :: status
+    corners = size(cells, 1)
+    n = size(cells, 2, c_int64_t)
+    call given%place_int64_columns('edges', edges, corners * (corners - 1) / 2, a_edges, room)
+    call given%require('edges', room, n)
+    status = c_placement_find_edges(self%c, given%capacity(n), int(corners, c_int32_t), cells - 1, &
+                                    edges)
+    call conclude('placement%find_edges', status, stat, errmsg, given)
+    if (status >= 0) edges = edges + 1
+  end subroutine
+
   !> Returns the number of triangles that get_boundary_triangles returns, in space. Collective.
   subroutine placement_boundary_triangle_count(self, count, stat, errmsg)
     class(pnpbs_placement), intent(in) :: self
@@ -3729,15 +3808,21 @@ contains
   !>   path      trailing blanks are ignored
   !>   elements  optional: whether to write triangles or tetrahedra (and the boundary) as well;
   !>             default: .false.
-  subroutine placement_write(self, path, elements, stat, errmsg)
+  !>   order     optional: 2 writes elements of second order into .msh, .msh2, .vtu and .vtkhdf, with
+  !>             the mid nodes of get_edges, whatever elements is
+  subroutine placement_write(self, path, elements, stat, errmsg, order)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: path
     logical, intent(in), optional :: elements
+    integer, intent(in), optional :: order
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: with_elements
     with_elements = 0
     if (present(elements)) with_elements = flag(elements)
+    if (present(order)) then
+      if (order == 2) with_elements = 2
+    end if
     call conclude('placement%write', &
                   c_placement_write(self%c, c_text(path), with_elements), stat, errmsg)
   end subroutine
@@ -3747,11 +3832,13 @@ contains
   !>   paths     (n)
   !>   formats   optional, (n): names of formats (pnpbs_format_info), ' ' for that of the extension
   !>   elements  optional, (n); default: .false.
-  subroutine placement_write_files(self, paths, formats, elements, stat, errmsg)
+  !>   order     optional: 2 makes the elements of these files those of second order
+  subroutine placement_write_files(self, paths, formats, elements, stat, errmsg, order)
     class(pnpbs_placement), intent(in) :: self
     character(len=*), intent(in) :: paths(:)
     character(len=*), intent(in), optional :: formats(:)
     logical, intent(in), optional :: elements(:)
+    integer, intent(in), optional :: order
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
@@ -3770,6 +3857,7 @@ contains
       do k = 1, size(paths)
         with_elements(k) = flag(elements(k))
       end do
+      if (present(order)) with_elements = with_elements * merge(2, 1, order == 2)
     end if
     status = c_placement_write_files(self%c, int(given%capacity(n), c_int32_t), &
                                      c_paths%addresses, a_formats, c_loc(with_elements(1)))

@@ -1224,6 +1224,31 @@ module pnpbs_c
       integer(c_int) :: c_placement_get_incident_elements
     end function
 
+    function c_placement_get_edges(placement, capacity, count, straight, ends, numbers, midpoints) &
+      bind(C, name="pnpbs_placement_get_edges")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count, straight
+      type(c_ptr), value :: ends ! int64_t *
+      type(c_ptr), value :: numbers ! int64_t *
+      type(c_ptr), value :: midpoints ! double *
+      integer(c_int) :: c_placement_get_edges
+    end function
+
+    function c_placement_find_edges(placement, n, corners, cells, edges) bind(C, &
+      name="pnpbs_placement_find_edges")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), value :: corners
+      integer(c_int64_t), intent(in) :: cells(*)
+      integer(c_int64_t), intent(inout) :: edges(*)
+      integer(c_int) :: c_placement_find_edges
+    end function
+
     function c_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) &
       bind(C, name="pnpbs_placement_get_boundary_triangles")
       import

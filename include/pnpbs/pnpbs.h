@@ -1133,6 +1133,37 @@ PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement pla
                                                              int64_t capacity, int64_t *count,
                                                              int32_t *corners, int64_t *elements);
 
+/** Copies the edges of this rank's elements, and of the facets that it has, with a mid node on each,
+ *  for elements of second order. The mid node is the middle of the edge; on boundary and inner
+ *  curves and surfaces it lies on these, on curves halfway along them, and on spheres all of them
+ *  do. Balls and cylinders are triangles within 1e-4 of the radius here, too. Where an element
+ *  would fold, or its Jacobian fall below a tenth of that of the straight one, its edges are
+ *  straight. Edges, numbers and mid nodes are the same for any number of ranks; several ranks may
+ *  have an edge. Collective. Call with capacity 0 to get the count; arrays may be NULL.
+ *  @param[in] capacity    edges the arrays have room for; too small is PNPBS_ERROR_CAPACITY
+ *  @param[out] count      number of edges
+ *  @param[out] straight   edges of all ranks that are straight lest an element folds; may be NULL
+ *  @param[out] ends       [count][2] local indices, ascending, and ascending from edge to edge
+ *  @param[out] numbers    [count] 0, 1, ... over all ranks, in the order of the ids of the ends
+ *  @param[out] midpoints  [count][dim] positions of the mid nodes */
+PNPBS_API pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capacity,
+                                                 int64_t *count, int64_t *straight, int64_t *ends,
+                                                 int64_t *numbers, double *midpoints);
+
+/** Finds the edges of elements or facets, as other functions return these, among those of
+ *  pnpbs_placement_get_edges. For a triangle of corners 0, 1, 2 they are 01, 12, 02, and for a
+ *  tetrahedron also 03, 13, 23, in the order in which VTK has mid nodes; Gmsh has 23 before 13.
+ *  Collective; each rank passes its own cells, or none. Errors: PNPBS_ERROR_ARGUMENT for other
+ *  numbers of corners, and for indices that are none of nodes and ghosts.
+ *  @param[in] n        number of elements or facets
+ *  @param[in] corners  2, 3 or 4: corners of each
+ *  @param[in] cells    [n][corners] local indices
+ *  @param[out] edges   [n][corners * (corners - 1) / 2] indices of edges; -1 for those of elements
+ *                      of other ranks that this one does not have */
+PNPBS_API pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n,
+                                                  int32_t corners, const int64_t *cells,
+                                                  int64_t *edges);
+
 /** Copies the boundary triangles of a placement in space: the faces that belong to one tetrahedron
  *  only, counter-clockwise as seen from outside. On surfaces alone, they are the triangles between
  *  the nodes, counter-clockwise as seen from the side that the surface's normal points to. On
@@ -1708,7 +1739,11 @@ PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t 
  *                       format). What is not a regular file, such as a pipe, is written by rank 0,
  *                       to which the others send their parts in turn; .vtkhdf, .xdmf and .hdf5
  *                       must be regular files.
- *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well */
+ *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well; 2: of second
+ *                       order, with the mid nodes of pnpbs_placement_get_edges after the nodes, in
+ *                       .msh, .msh2, .vtu and .vtkhdf. Mid nodes have the smallest tag of the
+ *                       facets there, or 0; the mean of d and of fields at both ends; and the id -1
+ */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);
 
@@ -1717,7 +1752,7 @@ PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const ch
  *  @param[in] paths     [n]
  *  @param[in] formats   [n] names of formats (pnpbs_format_info); where it or an entry is NULL, the
  *                       extension selects the format
- *  @param[in] elements  [n], or NULL for nodes only */
+ *  @param[in] elements  [n] as there, or NULL for nodes only */
 PNPBS_API pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
                                                    const char *const *paths,
                                                    const char *const *formats,

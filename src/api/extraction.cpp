@@ -7,6 +7,7 @@
 #include "base/space_vectors.hpp"
 #include "check/result_check.hpp"
 #include "results/element_regions.hpp"
+#include "results/mid_nodes.hpp"
 #include "results/node_normal.hpp"
 
 using namespace pnpbs;
@@ -308,6 +309,66 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
       std::int32_t* next = tags;
       if (tags) in.for_elements([&](const auto& places) { *next++ = region_of(places); });
     });
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capacity, int64_t* count,
+                                       int64_t* straight, int64_t* ends, int64_t* numbers,
+                                       double* midpoints) {
+  return collective_results(placement, [&](NodalResults& results) {
+    require_pointer(count, "count");
+    const MidNodes& mids =
+        visit_dimension(results, [](auto& in) -> const MidNodes& { return in.mid_nodes(); });
+    *count = std::ssize(mids.nodes());
+    if (straight) *straight = mids.straight();
+    if (capacity == 0 && !ends && !numbers && !midpoints) return PNPBS_OK;
+    require_capacity(capacity, *count);
+    for (const MidNode& mid : mids.nodes()) {
+      if (ends) ends = std::copy(mid.ends.begin(), mid.ends.end(), ends);
+      if (numbers) *numbers++ = mid.number;
+      if (midpoints) midpoints = std::copy_n(mid.x.begin(), results.coordinates(), midpoints);
+    }
+    return PNPBS_OK;
+  });
+}
+
+namespace {
+
+template <std::size_t corners>
+void find_edges(const MidNodes& mids, std::int64_t n, std::int64_t held, const std::int64_t* cells,
+                std::int64_t* edges) {
+  for (std::int64_t cell = 0; cell < n; ++cell) {
+    std::array<std::int64_t, corners> places;
+    for (std::int64_t& place : places) {
+      place = *cells++;
+      if (place < 0 || place >= held)
+        throw Error(ErrorKind::argument, "argument cells[" + std::to_string(cell) + "] has " +
+                                             std::to_string(place) + ", expected 0 to " +
+                                             std::to_string(held - 1));
+    }
+    const auto found = mids.of(places);
+    edges = std::copy(found.begin(), found.end(), edges);
+  }
+}
+
+}  // namespace
+
+pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n, int32_t corners,
+                                        const int64_t* cells, int64_t* edges) {
+  return collective_results(placement, [&](NodalResults& results) {
+    require_count(n, "n");
+    if (corners < 2 || corners > 4)
+      throw Error(ErrorKind::argument,
+                  "argument corners = " + std::to_string(corners) + "; 2, 3 or 4 was expected");
+    if (n > 0) require_pointer(cells, "cells");
+    if (n > 0) require_pointer(edges, "edges");
+    const MidNodes& mids =
+        visit_dimension(results, [](auto& in) -> const MidNodes& { return in.mid_nodes(); });
+    const std::int64_t held = results.held();
+    if (corners == 2) find_edges<2>(mids, n, held, cells, edges);
+    if (corners == 3) find_edges<3>(mids, n, held, cells, edges);
+    if (corners == 4) find_edges<4>(mids, n, held, cells, edges);
     return PNPBS_OK;
   });
 }

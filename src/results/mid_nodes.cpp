@@ -37,7 +37,7 @@ std::int64_t MidNodes::between(std::int64_t a, std::int64_t b) const {
   const auto first = nodes_.begin() + begin_[low], last = nodes_.begin() + begin_[low + 1];
   const auto found = std::lower_bound(first, last, std::max(a, b),
                                       [](const MidNode& m, auto end) { return m.ends[1] < end; });
-  return found - nodes_.begin();
+  return found != last && found->ends[1] == std::max(a, b) ? found - nodes_.begin() : -1;
 }
 
 // Makes the mid nodes in steps. The edges are distributed over the ranks by the smaller id of their

@@ -32,7 +32,7 @@ class MidNodes {
   std::int64_t straight() const { return straight_; }
 
   // Returns the indices in nodes() of the edges of an element or facet, given by the result indices
-  // of its corners, in the order of kElementEdges.
+  // of its corners, in the order of kElementEdges; -1 for edges that this rank does not have.
   template <std::size_t corners>
   std::array<std::int64_t, edges_of(corners)> of(
       const std::array<std::int64_t, corners>& places) const {

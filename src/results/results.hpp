@@ -280,7 +280,7 @@ void Results<Dim>::for_open_facets(std::int64_t begin, std::int64_t end, const V
 
 // Calls work(results) with the results cast to their dimension.
 template <class Work>
-auto visit_dimension(NodalResults& results, const Work& work) {
+decltype(auto) visit_dimension(NodalResults& results, const Work& work) {
   if (results.dimension() == 2) return work(static_cast<Results<2>&>(results));
   return work(static_cast<Results<3>&>(results));
 }

@@ -26,6 +26,8 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
            " takes d as given, so --nodes cannot scale it: the number of particles is the measure "
            "of the " +
            (arguments.in_walls ? "wall" : "domain") + " over d^2, or d^3 in space");
+  if (arguments.order == 2)
+    refuse(option + " and --order 2 exclude each other: particles have no elements");
   if (arguments.surfaces_only)
     refuse(option + " is for bodies, and with --surfaces-only nothing is inside");
   if (arguments.repair_if_needed)
@@ -122,6 +124,8 @@ void require_arguments_that_fit(const Arguments& arguments) {
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
+  if (arguments.nodes_only && arguments.order == 2)
+    refuse("--nodes-only and --order 2 exclude each other");
   }
   if (arguments.simplify && arguments.spacing == "auto")
     refuse(

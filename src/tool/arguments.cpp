@@ -396,6 +396,12 @@ void add_output(CLI::App& app, Arguments& arguments) {
                "no triangles or tetrahedra in formats where they are optional\n"
                "(.vtu, .pvtu, .vtkhdf, .xdmf, .msh, .msh2)")
       ->group(group);
+  app.add_option("--order", arguments.order,
+                 "order of triangles and tetrahedra in .vtu, .vtkhdf, .msh and .msh2:\n"
+                 "1, or 2 with mid nodes, which follow curves and surfaces")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2))
+      ->group(group);
   app.add_flag("--volumes", arguments.volumes,
                "the volume of each node's Voronoi cell (areas in the plane and on\n"
                "surfaces), as the field volume in .vtu, .pvtu, .vtkhdf, .xdmf,\n"

@@ -310,6 +310,17 @@ bool repair_if_not_conforming(Work& work, pnpbs_status status, pnpbs_placement p
   return true;
 }
 
+// Reports edges that are straight although curves and surfaces are not. Collective.
+void report_straight_edges(const Work& work, pnpbs_placement placement) {
+  std::int64_t count = 0, straight = 0;
+  check(pnpbs_placement_get_edges(placement, 0, &count, &straight, nullptr, nullptr, nullptr),
+        work.context);
+  if (straight > 0 && work.ranks.is_first())
+    std::cerr << "pnpbs: note: " << straight
+              << " edges do not follow curves or surfaces, because elements of second order would "
+                 "fold there: use a smaller d\n";
+}
+
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
   auto& [arguments, ranks, requests, context, domain, particles, look, body] = work;
   Outputs& outputs = *requests.outputs;
@@ -335,6 +346,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   outputs.write_report(report());
   give_up_if_any_is_interrupted(ranks);
   outputs.write_nodes(placement, matter.particles, context);
+  if (arguments.order == 2) report_straight_edges(work, placement);
   statistics.renew_memory(placement);  // writing files takes memory as well
   outputs.replace_report(report());
   if (work.talks() && !outputs.use_standard_output())

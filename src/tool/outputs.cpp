@@ -61,7 +61,7 @@ std::string file_of_spacing(const Arguments& arguments) {
 }  // namespace
 
 Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
-    : ranks_(ranks), elements_(!arguments.nodes_only && !arguments.at_centres) {
+    : ranks_(ranks), order_(arguments.nodes_only || arguments.at_centres ? 0 : arguments.order) {
   const FileFormat* otherwise = format_called(arguments.format);
   for (const std::string& path : arguments.outputs) add(path, format_of(path, otherwise));
   if (!arguments.report.empty()) add(arguments.report, nullptr);
@@ -187,7 +187,7 @@ pnpbs_status Outputs::ask_for_nodes(pnpbs_placement placement, pnpbs_particles p
     if (!output.is_nodes()) continue;
     paths.push_back(output.file.path().c_str());
     formats.push_back(output.format->name.c_str());
-    elements.push_back(elements_ && output.format->elements);
+    elements.push_back(output.format->elements ? order_ : 0);
   }
   const auto n = static_cast<std::int32_t>(paths.size());
   if (particles) return pnpbs_particles_write(particles, n, paths.data(), formats.data());

@@ -67,7 +67,7 @@ class Outputs {
   void settle_own(bool published);
 
   const Ranks& ranks_;
-  bool elements_;
+  int order_;  // of the elements in files, 0: without elements
   std::vector<Output> outputs_;
   std::exception_ptr failure_;  // thrown in publish_own
 };

@@ -155,6 +155,7 @@ contains
     if (dim == 3) call compare_elements_in_space(placement)
     call compare_exchange(placement)
     call compare_assembly(placement)
+    call compare_edges(placement)
     call compare_mesh(placement)
   end subroutine
 
@@ -289,6 +290,53 @@ contains
     call expect(all(sums(owned + 1:) == both(1, owned + 1:)), 'ghosts keep their values')
     call placement%add_from_ghosts(both)
     call expect(all(both(1, :) == sums .and. both(2, :) == 2 * sums), 'two components from ghosts')
+  end subroutine
+
+  !> Checks that the edges of elements join their corners, and that mid nodes in the plane and in
+  !> bodies are near the middles of the ends.
+  subroutine compare_edges(placement)
+    type(pnpbs_placement), intent(in) :: placement
+    integer(c_int64_t), allocatable :: elements(:,:), of_elements(:,:), ends(:,:), numbers(:)
+    real(c_double), allocatable :: x(:,:), ghosts_x(:,:), middles(:,:), apart(:)
+    integer(c_int64_t) :: count, straight, edges, owned, ghosts, t, e
+    integer(c_int32_t) :: dim, corners
+    integer :: k, wrong
+    integer, parameter :: pair(2, 6) = reshape([1, 2, 2, 3, 1, 3, 1, 4, 2, 4, 3, 4], [2, 6])
+    call placement%dimension(dim)
+    call placement%incident_element_count(count, corners)
+    call placement%edge_count(edges, straight)
+    call placement%count(owned)
+    call placement%ghost_count(ghosts)
+    allocate (elements(corners, count), of_elements(corners * (corners - 1) / 2, count))
+    allocate (ends(2, edges), numbers(edges), middles(dim, edges), apart(dim))
+    allocate (x(dim, owned + ghosts), ghosts_x(dim, ghosts))
+    call placement%get_nodes(x)
+    call placement%get_ghosts(ghosts_x)
+    x(:, owned + 1:) = ghosts_x
+    call placement%get_incident_elements(elements)
+    call placement%get_edges(ends, numbers, middles)
+    call placement%find_edges(elements, of_elements)
+    wrong = 0
+    do t = 1, count
+      do k = 1, size(of_elements, 1)
+        e = of_elements(k, t)
+        if (e == 0) then  ! only elements of other ranks
+          if (elements(1, t) <= owned) wrong = wrong + 1
+        else if (any(ends(:, e) /= [minval(elements(pair(:, k), t)), &
+                                    maxval(elements(pair(:, k), t))])) then
+          wrong = wrong + 1
+        end if
+      end do
+    end do
+    call expect(wrong == 0 .and. straight >= 0, 'edges join corners of elements')
+    wrong = 0
+    do e = 1, edges
+      apart = x(:, ends(1, e)) - x(:, ends(2, e))
+      if (sum((middles(:, e) - 0.5_c_double * (x(:, ends(1, e)) + x(:, ends(2, e))))**2) > &
+          0.1_c_double * sum(apart**2)) wrong = wrong + 1
+    end do
+    call expect(wrong == 0 .and. minval(numbers) >= 0, 'mid nodes are on their edges')
+    call expect(edges > 0, 'there are edges')
   end subroutine
 
   subroutine compare_exchange(placement)

@@ -665,6 +665,193 @@ class Domains(Case):
         self.assertEqual(repr(domain), "<pnpbs.Domain, closed>")
 
 
+def integral(points, cells, f=None):
+    """Returns the integral of f, or 1, over elements of second order with the nodes of VTK, and the
+    least Jacobian at the quadrature points."""
+    corners = {6: 3, 10: 4}[cells.shape[1]]
+    edges = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)][:corners * (corners - 1) // 2]
+    at, weights = np.polynomial.legendre.leggauss(4)
+    at, weights = (at + 1) / 2, weights / 2
+    total, least = 0, np.inf
+    slopes = np.vstack([-np.ones(corners - 1), np.eye(corners - 1)])  # of the barycentric coordinates
+    for k in np.ndindex(*[4] * (corners - 1)):
+        left, weight, local = 1, 1, []
+        for i in k:  # the cube collapsed to a simplex
+            weight *= weights[i] * left
+            local.append(left * at[i])
+            left -= local[-1]
+        w = np.array([left, *local])
+        shapes = np.array([*(w * (2 * w - 1)), *(4 * w[a] * w[b] for a, b in edges)])
+        gradients = np.vstack([(4 * w - 1)[:, None] * slopes,
+                               *(4 * (w[a] * slopes[b] + w[b] * slopes[a])[None] for a, b in edges)])
+        jacobians = np.linalg.det(np.einsum("ekd,kr->edr", points[cells], gradients))
+        value = 1 if f is None else f(np.einsum("ekd,k->ed", points[cells], shapes))
+        total, least = total + weight * (jacobians * value).sum(), min(least, jacobians.min())
+    return total, least
+
+
+class SecondOrder(Case):
+    """Elements with mid nodes on the boundary."""
+
+    def place(self, domain, d):
+        placement = pnpbs.Placement(domain).set_spacing(d)
+        placement.run()
+        return placement
+
+    def points(self, placement):
+        """Returns nodes and mid nodes, to which elements of second order refer."""
+        return np.vstack([placement.nodes().points, placement.edges().midpoints])
+
+    def slopes(self, sizes, errors):
+        return np.diff(np.log(np.abs(errors))) / np.diff(np.log(sizes))
+
+    def test_the_area_of_a_ring_converges_with_order_4(self):
+        errors = []
+        for d in (0.2, 0.1, 0.05):
+            domain = pnpbs.Domain(self.context).add_arc((0, 0), 1, tag=2)
+            domain.add_curve(lambda t: 0.4 * np.stack([np.cos(t), np.sin(t)], 1), 0, 2 * np.pi, tag=3)
+            placement = self.place(domain, d)
+            points, edges = self.points(placement), placement.edges()
+            area, least = integral(points, placement.triangles(order=2))
+            self.assertGreater(least, 0)
+            self.assertEqual(edges.straight, 0)
+            errors.append(area - np.pi * (1 - 0.4**2))
+            np.testing.assert_array_equal(np.sort(edges.numbers), np.arange(len(edges.numbers)))
+            facets = placement.boundary_edges(order=2)
+            radii = np.linalg.norm(points[facets.corners], axis=2)
+            np.testing.assert_allclose(radii[facets.tags == 2], 1, rtol=1e-12)
+            np.testing.assert_allclose(radii[facets.tags == 3], 0.4, rtol=1e-7)
+        self.assertLess(abs(errors[-1]), 1e-6)
+        self.assertGreater(self.slopes((0.2, 0.1, 0.05), errors).min(), 3.5)
+
+    def test_the_volume_of_a_ball_converges_with_order_4(self):
+        sizes, errors = (0.6, 0.4, 0.25), []
+        domain = pnpbs.Domain(self.context, dim=3)
+        domain.add_level_set(lambda x: np.linalg.norm(x, axis=1) - 1, (-1.3,) * 3, (1.3,) * 3, 0.1)
+        for d in sizes:
+            placement = self.place(domain, d)
+            points = self.points(placement)
+            volume, least = integral(points, placement.tetrahedra(order=2))
+            self.assertGreater(least, 0)
+            errors.append(volume - 4 / 3 * np.pi)
+            on_surface = points[placement.boundary_triangles(order=2).corners]
+            np.testing.assert_allclose(np.linalg.norm(on_surface, axis=2), 1, rtol=1e-9)
+        self.assertGreater(self.slopes(sizes, errors).min(), 3)
+
+    def test_rims_and_inner_surfaces(self):
+        """The rim of a cylinder is curved, and so is an inner ball; volumes are as good as their
+        triangles, and straight elements are ten times worse."""
+        domain = pnpbs.Domain(self.context, dim=3).add_cylinder((0, 0, 0), (0, 0, 2), 1)
+        domain.add_ball((0, 0, 1), 0.6, role="inner", tag=4).add_region((0, 0, 1), 7)
+        placement = self.place(domain, 0.2)
+        points, elements = self.points(placement), placement.tetrahedra(order=2)
+        inside = elements[placement.element_tags() == 7]
+        ball = pnpbs.Domain(self.context, dim=3).add_ball((0, 0, 1), 0.6)
+        for cells, exact in ((elements, domain.measure()), (inside, ball.measure())):
+            x = points[cells[:, :4]]
+            straight = np.linalg.det(x[:, 1:] - x[:, :1]).sum() / 6
+            error = integral(points, cells)[0] - exact
+            self.assertLess(abs(error), 0.05 * abs(straight - exact))
+        self.assertGreater(integral(points, elements)[1], 0)
+
+    def test_spheres_and_surfaces(self):
+        sphere = pnpbs.Domain.on_sphere(self.context, 2, (0, 0, -1))
+        shell = pnpbs.Domain(self.context, dim=3).add_ball((0, 0, 0), 2).set_filled(False)
+        for domain, get, near in ((sphere, "triangles", 1e-12), (shell, "boundary_triangles", 2e-4)):
+            placement = self.place(domain, 0.3)
+            cells = getattr(placement, get)(order=2)
+            points = self.points(placement)[getattr(cells, "corners", cells)]
+            self.assertEqual(points.shape[1:], (6, 3))
+            np.testing.assert_allclose(np.linalg.norm(points, axis=2), 2, atol=near)
+
+    def test_files(self):
+        for dim in (2, 3):
+            domain = pnpbs.Domain(self.context, dim=dim)
+            if dim == 2:
+                domain.add_arc((0, 0), 1, tag=3).add_arc((0.2, 0), 0.4, role="inner", tag=4)
+                domain.add_region((0.2, 0), 9)
+            else:
+                domain.add_ball((0, 0, 0), 1, tag=3)
+            placement = self.place(domain, 0.25)
+            placement.add_output_field("f", placement.nodes().points @ np.arange(1, dim + 1))
+            points = self.points(placement)
+            exact = integral(points, (placement.triangles, placement.tetrahedra)[dim - 2](order=2))
+            cell, facet = (("triangle6", "line3"), ("tetra10", "triangle6"))[dim - 2]
+            facets = (placement.boundary_edges, placement.boundary_triangles)[dim - 2](order=2)
+            meshio = importlib.import_module("meshio")
+            with tempfile.TemporaryDirectory() as folder:
+                paths = [pathlib.Path(folder, f"a.{name}") for name in ("msh", "msh2", "vtu")]
+                placement.write(*paths, order=2)
+                for path in paths:
+                    mesh = meshio.read(path, file_format="vtu" if path.suffix == ".vtu" else "gmsh")
+                    cells = mesh.cells_dict
+                    self.assertEqual(len(mesh.points), len(points))
+                    self.assertAlmostEqual(integral(mesh.points[:, :dim], cells[cell])[0], exact[0], 12)
+                    ends = np.array(cells[cell])[:, :2]
+                    values = mesh.point_data["f"]
+                    np.testing.assert_allclose(values[cells[cell][:, dim + 1]],
+                                               values[ends].mean(axis=1), atol=1e-15)
+                    if path.suffix == ".vtu":
+                        beside = meshio.read(path.with_name("a_facets.vtu"))
+                        found, tags = beside.cells_dict[facet], beside.cell_data["tag"][0]
+                        self.assertEqual(mesh.point_data["id"].min(), -1)
+                    else:
+                        found = cells[facet]
+                        tags = mesh.cell_data_dict["gmsh:physical"][facet]
+                    for tag in set(facets.tags):
+                        self.assertEqual(
+                            {tuple(np.sort(np.round(x, 12).ravel())) for x in
+                             points[facets.corners[facets.tags == tag]]},
+                            {tuple(np.sort(np.round(x, 12).ravel())) for x in
+                             mesh.points[:, :dim][found[tags == tag]]})
+                self.assertIn(".csv", self.assert_status(
+                    Status.ERROR_ARGUMENT, placement.write, pathlib.Path(folder, "a.csv"), order=2))
+                with self.assertRaises(ValueError):
+                    placement.write(paths[0], order=3)
+
+    def test_elements_that_would_fold_are_straight(self):
+        """A hole that nodes hardly resolve: its edges bulge into the triangles around it."""
+        domain = pnpbs.Domain(self.context).add_polyline([(-2, -2), (2, -2), (2, 2), (-2, 2)])
+        domain.add_curve(lambda t: 0.35 * np.stack([np.cos(t), 6 * np.sin(t) * np.sin(t / 2)**2], 1),
+                         0, 2 * np.pi, tag=3)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            placement = self.place(domain, 0.9)
+        _, least = integral(self.points(placement), placement.triangles(order=2))
+        self.assertGreater(least, 0)
+        self.assertGreater(placement.edges().straight, 0)
+
+    def test_poisson_converges_with_order_3(self):
+        """Solves -Laplace u = 4 on a disk, of which u = 1 - r^2 is the solution with u = 0 on it, and
+        of a right-hand side with a solution of no polynomial."""
+        sizes, errors = (0.3, 0.15, 0.075), []
+        for d in sizes:
+            placement = self.place(pnpbs.Domain(self.context).add_arc((0, 0), 1), d)
+            points, elements = self.points(placement), placement.triangles(order=2)
+            skfem = importlib.import_module("skfem")
+            mesh = skfem.MeshTri2(points.T, elements.T)
+            basis = skfem.Basis(mesh, skfem.ElementTriP2(), intorder=6)
+            exact = lambda x: np.cos(np.pi / 2 * (x[0]**2 + x[1]**2))
+
+            @skfem.BilinearForm
+            def stiffness(u, v, _):
+                return u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1]
+
+            @skfem.LinearForm
+            def load(v, w):
+                s = w.x[0]**2 + w.x[1]**2
+                return v * (2 * np.pi * np.sin(np.pi / 2 * s) + np.pi**2 * s * np.cos(np.pi / 2 * s))
+
+            @skfem.Functional
+            def squared_error(w):
+                return (w.u - exact(w.x))**2
+
+            solution = skfem.solve(*skfem.condense(stiffness.assemble(basis), load.assemble(basis),
+                                                   D=basis.get_dofs()))
+            errors.append(squared_error.assemble(basis, u=solution)**0.5)
+        self.assertGreater(self.slopes(sizes, errors).min(), 2.7)
+
+
 class Meshes(Case):
     def placed(self, domain, d):
         placement = pnpbs.Placement(domain, steps=20).set_spacing(d)

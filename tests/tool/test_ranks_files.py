@@ -161,6 +161,25 @@ class SameFiles(RanksTest):
         self.assertEqual(sorted(point_array(whole, "id")), list(point_array(alone, "id")))
         self.assertEqual(whole.GetNumberOfCells(), alone.GetNumberOfPoints())
 
+    def test_elements_of_second_order(self):
+        """Checks a circle, a body with an inner surface and regions, and a cylinder, whose rims are
+        feature edges. Fields at mid nodes need those of ghosts."""
+        body = ("--domain", "box(-1,-1,-1, 1,1,1):1; ball(0,0,0, 0.6):2", "--spacing", "0.22",
+                "--inner", "2", "--region", "0,0,0:5")
+        names = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2")
+        for ask in ((("--domain", LAKE, "--spacing", "auto", "--nodes", "800")), body,
+                    ("--domain", "cylinder(0,0,0, 0,0,1, 0.5)", "--spacing", "0.15")):
+            ask = (*ask, "--order", "2", "--field", "f=x+y*y", "-o", "a.vtu", "-o", "a.msh", "-o",
+                   "a.msh2", "--quiet")
+            self.run_command(*ask)
+            expected = {name: (self.folder / name).read_bytes() for name in names}
+            grid = read_with_vtk(self.folder / "a.vtu")
+            self.assertIn(grid.GetCellType(0), (vtk.VTK_QUADRATIC_TRIANGLE, vtk.VTK_QUADRATIC_TETRA))
+            for ranks in (3, 5):
+                self.run_ranks(ranks, *ask)
+                for name, content in expected.items():
+                    self.assertTrue((self.folder / name).read_bytes() == content, name)
+
     def test_colors(self):
         ask = ("--domain", self.square, "--spacing", "0.02 + 0.05*x", "-o", "a.svg", "--color")
         for by in ("quality", "edge", "spacing"):

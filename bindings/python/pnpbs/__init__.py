@@ -36,8 +36,8 @@ from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays
 from .particles import Particles
 from .placement import Estimate, Placement, PopulationChange
-from .results import (CellBands, EdgeBands, ExchangePattern, Facets, Ghosts, Nodes, Numbering,
-                      Stars)
+from .results import (CellBands, EdgeBands, Edges, ExchangePattern, Facets, Ghosts, Nodes,
+                      Numbering, Stars)
 from .rows import CompressedRows
 from .shapes import (GeoGrid, NoteCode, NoteData, Projection, ShapeCounts, Shapes, depth_spacing,
                      geo_build_info)
@@ -48,9 +48,9 @@ from .voronoi import VoronoiCells
 
 __all__ = [
     "CellBands", "CompressedRows", "Context", "DistributedMesh", "Domain", "DomainWarning",
-    "EdgeBands", "ElementsWarning", "ErrorReason", "Estimate", "ExchangePattern", "Facets",
-    "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays", "Nodes", "NoteCode", "NoteData",
-    "Numbering", "OptionRow", "Outline", "PNPBSError", "PNPBSWarning", "Particles", "Placement",
+    "EdgeBands", "Edges", "ElementsWarning", "ErrorReason", "Estimate", "ExchangePattern",
+    "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays", "Nodes", "NoteCode",
+    "NoteData", "Numbering", "OptionRow", "Outline", "PNPBSError", "PNPBSWarning", "Particles", "Placement",
     "PopulationChange", "Projection", "ShapeCounts", "Shapes", "SpacingWarning", "Stars",
     "StatisticRow", "Status", "Transfer", "VoronoiCells", "WarningCode", "WarningData",
     "build_info", "depth_spacing", "discard_unfinished_files", "file_dimension", "format_table",

@@ -190,6 +190,10 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
     int64_t *count, int32_t *tags);
 pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int32_t *corners, int64_t *elements);
+pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *straight, int64_t *ends, int64_t *numbers, double *midpoints);
+pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n, int32_t corners,
+    const int64_t *cells, int64_t *edges);
 pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int64_t *triangles, int32_t *tags);
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,

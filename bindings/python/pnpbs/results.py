@@ -88,8 +88,27 @@ class Stars(NamedTuple):
         return summary(self)
 
 
+class Edges(NamedTuple):
+    """Edges with a mid node each.
+
+    - `ends`: local indices, ascending, of shape (n, 2).
+    - `numbers`: 0, 1, ... over all ranks.
+    - `midpoints`: positions of the mid nodes, of shape (n, dim).
+    - `straight`: number of edges of all ranks that do not follow the boundary, because an element
+      would fold."""
+
+    ends: Ids
+    numbers: Ids
+    midpoints: Doubles
+    straight: int
+
+    def __repr__(self) -> str:
+        return summary(self)
+
+
 class Facets(NamedTuple):
-    """Facets: local indices of their corners, of shape (n, corners), and their tags."""
+    """Facets: local indices of their corners, of shape (n, corners), and their tags. Facets of
+    second order have mid nodes after the corners."""
 
     corners: Ids
     tags: Int32s
@@ -267,17 +286,48 @@ class Results(PlacementHandle):
         self._call("get_stars", entries, rows.offsets, rows.values, triangle)
         return Stars(rows, CompressedRows(rows.offsets, triangle.view(np.bool_)))
 
-    def triangles(self) -> Ids:
+    def triangles(self, order: int = 1) -> Ids:
         """Returns the triangles of a placement in the plane or on a sphere, (n, 3) local indices,
         each once, counter-clockwise, on a sphere as seen from outside. A triangle belongs to the
-        rank that owns its node with the lowest id; its other corners may be ghosts. Collective."""
-        return self._elements("get_triangles", 3)
+        rank that owns its node with the lowest id; its other corners may be ghosts. Collective.
 
-    def tetrahedra(self) -> Ids:
+        - `order`: with 2 the shape is (n, 6): mid nodes follow, which are the `edges` in their
+          order behind all nodes and ghosts. In a triangle with the corners 0, 1, 2 they are on 01,
+          12 and 02."""
+        return self._of_order(self._elements("get_triangles", 3), order)
+
+    def tetrahedra(self, order: int = 1) -> Ids:
         """Returns the tetrahedra of a placement in space, (n, 4) local indices, each once. Seen
         from the fourth corner, the first three are counter-clockwise. A tetrahedron belongs to the
-        rank that owns its node with the lowest id; its other corners may be ghosts. Collective."""
-        return self._elements("get_tetrahedra", 4)
+        rank that owns its node with the lowest id; its other corners may be ghosts. Collective.
+
+        - `order`: with 2 the shape is (n, 10), with the mid nodes of `triangles` on 01, 12, 02, 03,
+          13 and 23, the order of VTK and meshio."""
+        return self._of_order(self._elements("get_tetrahedra", 4), order)
+
+    def edges(self) -> Edges:
+        """Returns the edges of the elements of this rank, and of its facets, with a mid node each,
+        for elements of second order. Mid nodes on curves and surfaces of the domain lie on these,
+        except where an element would fold. Numbers and mid nodes are the same for any number of
+        ranks, several of which may have an edge. Collective."""
+        count, straight = ctypes.c_int64(), ctypes.c_int64()
+        sizes = ctypes.byref(count), ctypes.byref(straight)
+        self._call("get_edges", 0, *sizes, None, None, None)
+        n = count.value
+        arrays = np.zeros((n, 2), np.int64), np.zeros(n, np.int64), np.zeros((n, self.dim))
+        self._call("get_edges", n, *sizes, *arrays)
+        return Edges(*arrays, straight.value)
+
+    def _of_order(self, cells: Ids, order: int) -> Ids:
+        """Appends the mid nodes of elements or facets to their corners, if the order is 2."""
+        if order not in (1, 2):
+            raise ValueError(f"order is {order!r}; 1 or 2 was expected")
+        if order == 1:
+            return cells
+        n, corners = cells.shape
+        edges = np.zeros((n, corners * (corners - 1) // 2), np.int64)
+        self._call("find_edges", n, corners, cells, edges)
+        return np.hstack([cells, edges + self.node_count + self.ghost_count()])
 
     def element_tags(self) -> Int32s:
         """Returns the tag of each element, which is that of its region (`Domain.add_region`), or 0
@@ -305,19 +355,22 @@ class Results(PlacementHandle):
         self._call("get_incident_elements", len(found), *sizes, found)
         return found
 
-    def boundary_edges(self) -> Facets:
+    def boundary_edges(self, order: int = 1) -> Facets:
         """Returns the edges between consecutive nodes on boundary and inner curves of a placement
         in the plane or on a sphere: (n, 2) local indices, and the tags of the curves. An edge
-        belongs to the rank that owns its first node; the other one may be a ghost. Local."""
+        belongs to the rank that owns its first node; the other one may be a ghost. Local with the
+        order 1; with 2 the shape is (n, 3), with the mid node of `triangles` last, and the call is
+        collective."""
         self._placed_count()
-        return self._facets("get_boundary_edges", 2)
+        return self._facets("get_boundary_edges", 2, order)
 
-    def boundary_triangles(self) -> Facets:
+    def boundary_triangles(self, order: int = 1) -> Facets:
         """Returns the boundary triangles of a placement in space: (n, 3) local indices,
         counter-clockwise as seen from outside, and the tags of the surfaces there. On surfaces
         alone, they are the triangles between the nodes. A triangle belongs to the rank that owns
-        its node with the lowest id. Collective."""
-        return self._facets("get_boundary_triangles", 3)
+        its node with the lowest id. With the order 2 the shape is (n, 6), with mid nodes as in
+        `triangles`. Collective."""
+        return self._facets("get_boundary_triangles", 3, order)
 
     def _elements(self, name: str, corners: int) -> Ids:
         """Copies elements with so many corners."""
@@ -327,13 +380,13 @@ class Results(PlacementHandle):
         self._call(name, len(found), ctypes.byref(count), found)
         return found
 
-    def _facets(self, name: str, corners: int) -> Facets:
+    def _facets(self, name: str, corners: int, order: int) -> Facets:
         """Copies facets with so many corners."""
         count = ctypes.c_int64()
         self._call(name, 0, ctypes.byref(count), None, None)
         found = Facets(np.zeros((count.value, corners), np.int64), np.zeros(count.value, np.int32))
         self._call(name, count.value, ctypes.byref(count), *found)
-        return found
+        return Facets(self._of_order(found.corners, order), found.tags)
 
     def check(self) -> Status:
         """Checks the invariants of the results. Returns `Status.OK`, or `Status.NOT_CONFORMING`
@@ -423,7 +476,8 @@ class Results(PlacementHandle):
 
     # ------------------------------------------------------------ files ------------------------
 
-    def write(self, *paths: Path, elements: Union[bool, Sequence[bool]] = False) -> Status:
+    def write(self, *paths: Path, elements: Union[bool, Sequence[bool]] = False,
+              order: int = 1) -> Status:
         """Writes the nodes of all ranks into files. Several files appear together when all are
         complete, or not at all. Collective.
 
@@ -431,6 +485,9 @@ class Results(PlacementHandle):
           ranks pass the same.
         - `elements`: whether to write triangles or tetrahedra as well, one for all files or one for
           each. One True for all applies to the formats that can hold elements.
+        - `order`: 2 writes elements of second order, with the mid nodes of `edges`, into .msh,
+          .msh2, .vtu and .vtkhdf, whatever `elements` is. Mid nodes have the id -1, the smallest
+          tag of the facets there, or 0, and the mean of d and of fields at both ends.
 
         A file with an extension that only meshio knows, such as .inp, .mesh or .exo, is
         written by meshio from `Placement.mesh` with elements, and as the only file of a call on one
@@ -443,11 +500,16 @@ class Results(PlacementHandle):
         formats = {row.name: row for row in format_table()}
         of_paths = [formats.get(_extension(path)) for path in paths]
         _refuse_pictures(paths)
-        if len(paths) == 1 and of_paths[0] is None and _meshio_writes(paths[0]):
+        if order == 1 and len(paths) == 1 and of_paths[0] is None and _meshio_writes(paths[0]):
             return self._write_by_meshio(paths[0])
+        if order not in (1, 2):
+            raise ValueError(f"order is {order!r}; 1 or 2 was expected")
+        if order == 2 and elements is False:
+            elements = True
         wanted = np.full(len(paths), elements, np.int32)
         if elements is True and len(paths) > 1:
             wanted[:] = [row is None or row.elements for row in of_paths]
+        wanted *= order
         return self._call("write_files", len(paths), (ctypes.c_char_p * len(paths))(*encoded), None,
                           wanted)
 

@@ -540,6 +540,16 @@ pnpbs_placement_get_tetrahedra(placement, capacity, count, tetrahedra) =
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
         tetrahedra::Ptr{Int64})::pnpbs_status
 
+pnpbs_placement_get_edges(placement, capacity, count, straight, ends, numbers, midpoints) =
+    @ccall $(symbol(:pnpbs_placement_get_edges))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, straight::Ptr{Int64},
+        ends::Ptr{Int64}, numbers::Ptr{Int64}, midpoints::Ptr{Float64})::pnpbs_status
+
+pnpbs_placement_find_edges(placement, n, corners, cells, edges) =
+    @ccall $(symbol(:pnpbs_placement_find_edges))(
+        placement::pnpbs_placement, n::Int64, corners::Int32, cells::Ptr{Int64},
+        edges::Ptr{Int64})::pnpbs_status
+
 pnpbs_placement_get_element_tags(placement, capacity, count, tags) =
     @ccall $(symbol(:pnpbs_placement_get_element_tags))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},

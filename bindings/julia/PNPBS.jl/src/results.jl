@@ -211,6 +211,45 @@ function elements!(placement, corners, get, rows)
 end
 
 """
+    edges(placement) -> (ends, numbers, midpoints, straight)
+
+Returns the edges of the elements of this rank, and of its facets, with a mid node each, for elements
+of second order: `ends` are local indices, `(2, n)`, `numbers` count from 0 over all ranks, and
+`midpoints` are the positions of the mid nodes, `(dim, n)`. Mid nodes on curves and surfaces of the
+domain lie on these, except for `straight` edges of all ranks, where an element would fold. Numbers
+and mid nodes are the same for any number of ranks, several of which may have an edge. Collective.
+"""
+function edges(placement::Placement)
+    count, straight = Ref{Int64}(0), Ref{Int64}(0)
+    get(n, arrays...) = check(placement, LibPNPBS.pnpbs_placement_get_edges(live(placement), n,
+                                                                            count, straight,
+                                                                            arrays...))
+    get(0, C_NULL, C_NULL, C_NULL)
+    n = count[]
+    ends, numbers = zeros(Int64, 2, n), zeros(Int64, n)
+    midpoints = zeros(ndims(placement), n)
+    get(n, ends, numbers, midpoints)
+    return (ends = ends .+= 1, numbers = numbers, midpoints = midpoints,
+            straight = Int(straight[]))
+end
+
+"""
+    find_edges(placement, cells) -> Matrix{Int64}
+
+Returns which of the [`edges`](@ref) elements or facets have, such as those of [`triangles`](@ref)
+and [`tetrahedra`](@ref): in a triangle with the corners 1, 2, 3 those between 1 and 2, 2 and 3, 1
+and 3, and in a tetrahedron also those between 1 and 4, 2 and 4, 3 and 4. An index is 0 if this rank
+does not have the edge. Collective.
+"""
+function find_edges(placement::Placement, cells::AbstractMatrix{<:Integer})
+    corners, n = size(cells)
+    found = zeros(Int64, corners * (corners - 1) ÷ 2, n)
+    check(placement, LibPNPBS.pnpbs_placement_find_edges(live(placement), n, corners,
+                                                         Matrix{Int64}(cells .- 1), found))
+    return found .+= 1
+end
+
+"""
     element_tags(placement) -> Vector{Int32}
 
 Returns the tag of each element, which is that of its region ([`add_region!`](@ref)), or 0 if the
@@ -425,7 +464,7 @@ end
 
 # ---------------------------------------------------------------- files -------------------------
 """
-    write_file(placement, path; elements = false) -> Symbol
+    write_file(placement, path; elements = false, order = 1) -> Symbol
     write_file(particles, path) -> Symbol
 
 Writes the nodes of all ranks, and the triangles or tetrahedra if `elements` is true, into one file.
@@ -435,26 +474,33 @@ appears when it is complete. Returns `:ok`, or `:stopped` if the monitor has sto
 keeps an existing file. Throws `:error_file` with the name of the file, and `:error_unsupported` if
 a format requires HDF5 and the library has none. Collective.
 
+With `order = 2` the elements are of second order, whatever `elements` is, with the mid nodes of
+[`edges`](@ref), in .msh, .msh2, .vtu and .vtkhdf.
+
 Files of [`Particles`](@ref) also have their `volume`, in formats with fields, and no elements. The
 formats .pvtu, .ele, .face, .gr3, .2dm, .ugrid, .mpas and .graph throw `:error_argument` for them.
 """
-write_file(placement::Placement, path::AbstractString; elements::Bool = false) =
-    check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path, elements))
+write_file(placement::Placement, path::AbstractString; elements::Bool = false,
+           order::Integer = 1) =
+    check(placement, LibPNPBS.pnpbs_placement_write(live(placement), path,
+                                                    order == 2 ? 2 : elements))
 
 """
-    write_files(placement, paths; formats = nothing, elements = false) -> Symbol
+    write_files(placement, paths; formats = nothing, elements = false, order = 1) -> Symbol
     write_files(particles, paths; formats = nothing) -> Symbol
 
 Writes several files, which appear together when all are complete, or not at all. `formats` are
 names of formats; `nothing`, for all or for single files, stands for the format of the extension.
-`elements` is one value for all files or one for each. Otherwise the function is like
+`elements` is one value for all files or one for each, and `order` that of these elements. Otherwise the function is like
 [`write_file`](@ref). Collective.
 """
 function write_files(placement::Placement, paths::AbstractVector{<:AbstractString};
-                     formats::Union{Nothing,AbstractVector} = nothing, elements = false)
+                     formats::Union{Nothing,AbstractVector} = nothing, elements = false,
+                     order::Integer = 1)
     elements isa Bool || require_length(elements, length(paths), "elements")
     code = with_file_names(paths, formats) do n, c_paths, c_formats
         with_elements = elements isa Bool ? fill(Int32(elements), n) : Vector{Int32}(elements)
+        with_elements .*= order == 2 ? 2 : 1
         LibPNPBS.pnpbs_placement_write_files(live(placement), n, c_paths, c_formats, with_elements)
     end
     return check(placement, code)

@@ -342,3 +342,31 @@ end
                                         step = (1, 1, 1))) isa DimensionMismatch
     end
 end
+
+@testset "elements of second order" begin
+    Context() do context
+        ball = add_ball!(Domain(context; dim = 3), (0, 0, 0), 1.0; tag = 3)
+        placement = placed_in(ball, 0.4)
+        (points, elements) = (nodes(placement).points, tetrahedra(placement))
+        found = edges(placement)
+        @test sort(found.numbers) == 0:length(found.numbers)-1
+        @test found.straight >= 0
+        of_elements = find_edges(placement, elements)
+        pairs = ((1, 2), (2, 3), (1, 3), (1, 4), (2, 4), (3, 4))
+        @test all(found.ends[:, of_elements[k, t]] == sort(elements[[pairs[k]...], t])
+                  for t in 1:size(elements, 2) for k in 1:6)
+        around = boundary_triangles(placement)
+        outside = unique(find_edges(placement, around.triangles))
+        radii = sqrt.(sum(abs2, found.midpoints[:, outside]; dims = 1))
+        @test all(r -> isapprox(r, 1; rtol = 2e-4), radii)
+        inner = setdiff(1:length(found.numbers), outside)
+        middles = (points[:, found.ends[1, inner]] + points[:, found.ends[2, inner]]) / 2
+        @test found.midpoints[:, inner] ≈ middles
+        mktempdir() do folder
+            path = joinpath(folder, "a.msh")
+            @test write_file(placement, path; order = 2) === :ok
+            @test occursin("\n3 1 11 $(size(elements, 2))\n", read(path, String))
+            @test write_files(placement, [path, path * "2"]; elements = true, order = 2) === :ok
+        end
+    end
+end
