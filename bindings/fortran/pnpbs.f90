@@ -2595,8 +2595,8 @@ contains
     end do
   end subroutine
 
-  !> Finds the edges of elements or facets among those of get_edges. Those of a triangle with the
-  !> corners 1, 2, 3 are 12, 23, 13; a tetrahedron has also 14, 24, 34. Collective.
+  !> Finds the edges of elements or facets among those of get_edges. A triangle with the
+  !> corners 1, 2, 3 has 12, 23 and 13, a tetrahedron also 14, 24 and 34. Collective.
   !>   cells  (corners, n): local indices, as other procedures return them
   !>   edges  (corners * (corners - 1) / 2, n): indices of edges; 0 for those that this rank does
   !>          not have

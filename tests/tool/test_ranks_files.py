@@ -41,17 +41,22 @@ def facets_by_ids(grid):
     return sorted(zip(ids[corners].tolist(), tags.tolist()))
 
 
+def tetrahedron_in_cube(path):
+    """Writes a cube with a tetrahedron as the group "inner", whose corners it returns."""
+    cube = [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]
+    sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+    inner = [[0.2, 0.2, 0.3], [0.8, 0.3, 0.2], [0.4, 0.8, 0.3], [0.5, 0.5, 0.8]]
+    path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in cube + inner) + "g shell\n" +
+                    "".join("f {} {} {} {}\n".format(*(k + 1 for k in side)) for side in sides) +
+                    "g inner\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n")
+    return inner
+
+
 class InnerSurfaces(RanksTest):
     def test_are_the_same_triangles(self):
         """Checks a tetrahedron in a cube: its faces are the same in the files of any number of
         ranks."""
-        cube = [[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]
-        sides = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
-        inner = [[0.2, 0.2, 0.3], [0.8, 0.3, 0.2], [0.4, 0.8, 0.3], [0.5, 0.5, 0.8]]
-        (self.folder / "m.obj").write_text(
-            "".join(f"v {x} {y} {z}\n" for x, y, z in cube + inner) + "g shell\n" +
-            "".join("f {} {} {} {}\n".format(*(k + 1 for k in side)) for side in sides) +
-            "g inner\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n")
+        inner = tetrahedron_in_cube(self.folder / "m.obj")
         ask = ("--domain", "m.obj", "--inner", "inner", "--spacing", "0.12", "--quiet", "--set",
                "tolerance_mean=1", "--steps", "40", "-o", "a.msh", "-o", "a.vtu", "-o", "a.face")
         self.run_command(*ask)
@@ -162,10 +167,11 @@ class SameFiles(RanksTest):
         self.assertEqual(whole.GetNumberOfCells(), alone.GetNumberOfPoints())
 
     def test_elements_of_second_order(self):
-        """Checks a circle, a body with an inner surface and regions, and a cylinder, whose rims are
+        """Checks a lake, a body with an inner surface and a region, and a cylinder, whose rims are
         feature edges. Fields at mid nodes need those of ghosts."""
-        body = ("--domain", "box(-1,-1,-1, 1,1,1):1; ball(0,0,0, 0.6):2", "--spacing", "0.22",
-                "--inner", "2", "--region", "0,0,0:5")
+        tetrahedron_in_cube(self.folder / "m.obj")
+        body = ("--domain", "m.obj", "--spacing", "0.15", "--inner", "inner", "--region",
+                "0.5,0.5,0.4:5")
         names = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2")
         for ask in ((("--domain", LAKE, "--spacing", "auto", "--nodes", "800")), body,
                     ("--domain", "cylinder(0,0,0, 0,0,1, 0.5)", "--spacing", "0.15")):
@@ -175,7 +181,7 @@ class SameFiles(RanksTest):
             expected = {name: (self.folder / name).read_bytes() for name in names}
             grid = read_with_vtk(self.folder / "a.vtu")
             self.assertIn(grid.GetCellType(0), (vtk.VTK_QUADRATIC_TRIANGLE, vtk.VTK_QUADRATIC_TETRA))
-            for ranks in (3, 5):
+            for ranks in (2, 3):
                 self.run_ranks(ranks, *ask)
                 for name, content in expected.items():
                     self.assertTrue((self.folder / name).read_bytes() == content, name)
