@@ -122,10 +122,10 @@ void require_arguments_that_fit(const Arguments& arguments) {
   require_centres_that_fit(arguments, multiplied);
   require_what_spheres_have(arguments);
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
-  if (arguments.bubbles && colour != picture::ElementColour::none) {
-    refuse("--bubbles and --color exclude each other");
   if (arguments.nodes_only && arguments.order == 2)
     refuse("--nodes-only and --order 2 exclude each other");
+  if (arguments.bubbles && colour != picture::ElementColour::none) {
+    refuse("--bubbles and --color exclude each other");
   }
   if (arguments.simplify && arguments.spacing == "auto")
     refuse(

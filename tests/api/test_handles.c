@@ -150,8 +150,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_add_from_ghosts, (handle, 1, 1, out.reals + 1))                                     \
   X(placement_get_incident_elements,                                                              \
     (handle, 1, out.integers + 1, out.small + 2, out.integers + 3))                               \
-  X(placement_get_edges,                                                                          \
-    (handle, 0, out.integers + 1, out.integers + 2, NULL, NULL, NULL))                            \
+  X(placement_get_edges, (handle, 0, out.integers + 1, out.integers + 2, NULL, NULL, NULL))       \
   X(placement_find_edges, (handle, 0, 3, NULL, out.integers + 1))                                 \
   X(placement_add_output_field, (handle, "height", 1, 1, grid))                                   \
   X(placement_clear_output_fields, (handle))                                                      \

@@ -335,6 +335,34 @@ class StandardStreams(CommandTest):
         self.assertEqual(len(read_csv(self.folder / "a.csv")), 5)
 
 
+class SecondOrder(CommandTest):
+    def test_types_and_streams(self):
+        """Checks that formats without elements are written beside, and the types in a stream."""
+        self.place("-o", "a.vtu", "-o", "a.csv", "--order", "2")
+        grid = read_with_vtk(self.folder / "a.vtu")
+        types = {grid.GetCellType(cell) for cell in range(grid.GetNumberOfCells())}
+        self.assertEqual(types, {22})
+        ids, nodes = point_array(grid, "id"), read_csv(self.folder / "a.csv")["id"]
+        self.assertEqual(list(ids[:len(nodes)]), list(nodes))
+        self.assertEqual(set(ids[len(nodes):]), {-1})
+        out, _ = self.place("-o", "-", "--format", "msh2", "--order", "2", "--quiet")
+        rows = out.decode().split("$Elements\n")[1].splitlines()[1:-1]
+        self.assertEqual({row.split()[1] for row in rows}, {"8", "9"})
+
+    def test_edges_that_stay_straight_are_reported(self):
+        _, err = self.run_command("--domain", LAKE, "--corner-angle", "60", "--spacing", "8",
+                                  "--nodes", "100", "-o", "a.msh", "--order", "2", "--quiet")
+        self.assertIn("edges do not follow curves", err.decode())
+
+    def test_what_is_refused(self):
+        ask = ("--domain", self.square, "--spacing", "0.1", "--order")
+        self.assertIn(".msh, .msh2, .vtu", self.refuse(*ask, "2", "-o", "a.msh", "-o", "a.xdmf"))
+        self.assertIn("second order", self.refuse(*ask, "2", "-o", "a.pvtu"))
+        self.assertIn("--nodes-only", self.refuse(*ask, "2", "-o", "a.msh", "--nodes-only"))
+        self.assertIn("--order", self.refuse(*ask, "3", "-o", "a.msh"))
+        self.assertIn("--order 2", self.refuse(*ask, "2", "-o", "a.csv", "--nodes-at", "centers"))
+
+
 class NodesOnly(CommandTest):
     def test_no_triangles(self):
         self.place("-o", "a.vtu", "-o", "a.msh", "-o", "a.msh2", "--nodes-only")

@@ -173,7 +173,9 @@ class SameFiles(RanksTest):
         body = ("--domain", "m.obj", "--spacing", "0.15", "--inner", "inner", "--region",
                 "0.5,0.5,0.4:5")
         names = ("a.vtu", "a_facets.vtu", "a.msh", "a.msh2")
-        for ask in ((("--domain", LAKE, "--spacing", "auto", "--nodes", "800")), body,
+        # With few nodes some edges of the lake stay straight.
+        lake = ("--domain", LAKE, "--corner-angle", "60", "--spacing", "8", "--nodes", "100")
+        for ask in (lake, body,
                     ("--domain", "cylinder(0,0,0, 0,0,1, 0.5)", "--spacing", "0.15")):
             ask = (*ask, "--order", "2", "--field", "f=x+y*y", "-o", "a.vtu", "-o", "a.msh", "-o",
                    "a.msh2", "--quiet")
