@@ -890,9 +890,9 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  not the bubbles are at rest, if in one of the bands of pnpbs_placement_get_edge_bands the mean
  *  over 50 edges or more differs from 1 by more than 0.1 and twice its standard error (a warning
  *  names the band), and so does, where 50 edges or more join two nodes inside the domain, the mean
- *  over these (edges through a thin wall are as long as it is thick; edges that end at feature edges
- *  and corners of a body do not count); PNPBS_NOT_CONFORMING, whatever else is true, if there are
- *  no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
+ *  over these (edges through a thin wall are as long as it is thick; edges that end at feature
+ * edges and corners of a body do not count); PNPBS_NOT_CONFORMING, whatever else is true, if there
+ * are no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
  *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
  *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join
  * (a warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before
@@ -1133,8 +1133,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement pla
                                                              int64_t capacity, int64_t *count,
                                                              int32_t *corners, int64_t *elements);
 
-/** Copies the edges of this rank's elements, and of the facets that it has, with a mid node on each,
- *  for elements of second order. The mid node is the middle of the edge; on boundary and inner
+/** Copies the edges of this rank's elements, and of the facets that it has, with a mid node on
+ * each, for elements of second order. The mid node is the middle of the edge; on boundary and inner
  *  curves and surfaces it lies on these, on curves halfway along them, and on spheres all of them
  *  do. Balls and cylinders are triangles within 1e-4 of the radius here, too. Where an element
  *  would fold, or its Jacobian fall below a tenth of that of the straight one, its edges are
