@@ -12,6 +12,7 @@
 #include "level/volume/surface_stars.hpp"
 #include "neighbors/rings.hpp"
 #include "sphere/sphere_cap.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -147,8 +148,7 @@ void build_stars(Level<3>& level, const KnownRegion<3>& known, bool stored_stars
 }
 
 // Collects the boxes in which all nodes must be known before the missing stars can be found: one
-// box for the nodes of each leaf and, in the patch of a whole sphere, the leaves with unknown
-// nodes.
+// box for the nodes of each leaf, and single leaves with unknown nodes.
 template <int Dim>
 class UnknownBoxes {
  public:
@@ -165,6 +165,7 @@ class UnknownBoxes {
     const Box<Dim> box = box_around<Dim>(level_.nodes.position(i), reach);
     widen(box_of_.try_emplace(level_.neighbourhood.buckets().bucket_of(i), box).first->second, box);
   }
+  void request_leaf(std::int32_t leaf) { leaves_.insert(leaf); }
   std::vector<Box<Dim>> boxes() const {
     std::vector<Box<Dim>> boxes;
     for (const auto& [leaf, box] : box_of_) boxes.push_back(box);
@@ -181,7 +182,7 @@ class UnknownBoxes {
                         length);
     known_.for_unknown_leaves(
         level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
-        [&](std::int32_t leaf) { leaves_.insert(leaf); });
+        [&](std::int32_t leaf) { request_leaf(leaf); });
   }
 
   const Level<Dim>& level_;
@@ -241,23 +242,27 @@ double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, do
   return sum;
 }
 
-// Requests all nodes within that distance of an owned node.
+// Requests the unknown leaves that are closer to an owned node than the sum of both reaches.
 void request_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
                    UnknownBoxes<3>& unknown) {
   const BackgroundTree<3>& tree = level.tree->tree();
   const Buckets<3>& buckets = level.neighbourhood.buckets();
   const Nodes<3>& nodes = level.nodes;
+  const auto is_near = [&](std::int64_t i, std::int32_t leaf) {
+    const double sum = reach * (nodes.d(i) + level.map().leaf_max_spacing(leaf));
+    const Box<3> box = tree.cell_box_with_room(tree.leaf_cell(leaf));
+    return squared_gap_to(box, nodes.position(i)) < sum * sum;
+  };
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const OwnedNodesBox owned = owned_nodes_box(nodes, buckets.begin(leaf), buckets.end(leaf));
-    const auto reach_around = [&](const Box<3>& box, double d) {
-      const double sum = reach_of_pairs(level, reach, box, d);
-      return known.covers(tree, widened(box, sum)) ? 0 : sum;
-    };
-    // One test is enough for all nodes of a leaf far from other ranks.
-    if (owned.max_d == 0 || reach_around(owned.box, owned.max_d) == 0) continue;
-    for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
-      if (nodes.owned(i))
-        unknown.request_around(i, reach_around({nodes.position(i), nodes.position(i)}, nodes.d(i)));
+    if (owned.max_d == 0) continue;
+    const double most = reach_of_pairs(level, reach, owned.box, owned.max_d);
+    known.for_unknown_leaves(
+        tree, [&](const Box<3>& box) { return squared_gap(box, owned.box) < most * most; },
+        [&](std::int32_t other) {
+          for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
+            if (nodes.owned(i) && is_near(i, other)) return unknown.request_leaf(other);
+        });
   }
 }
 

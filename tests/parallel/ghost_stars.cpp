@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index_by_id.hpp"
 #include "base/mixed_hash.hpp"
 #include "core/volume_tetrahedra.hpp"
 #include "level/exchange.hpp"
@@ -88,18 +89,37 @@ void check_stars(const Level& level, int rings, const StarsById& alone, const st
   }
 }
 
+constexpr double kReach = 3.3;  // of nodes that must be known, in units of d
+
+// Checks that a rank knows all nodes whose distance from an owned node is less than the sum of both
+// reaches.
+void check_pairs(const Level& level, const Level& alone, const std::string& where) {
+  const pnpbs::Nodes<3>&nodes = level.nodes, &all = alone.nodes;
+  const pnpbs::IndexById known(nodes);
+  std::int64_t pairs = 0;
+  for (std::int64_t j = 0; j < all.count; ++j) {
+    if (known.of(all.id(j)) >= 0) continue;
+    for (std::int64_t i = 0; i < nodes.count; ++i)
+      pairs += nodes.owned(i) && pnpbs::distance<3>(nodes.position(i), all.position(j)) <
+                                     kReach * (nodes.d(i) + all.d(j));
+  }
+  expect(pairs == 0, where + ": all pairs are known");
+}
+
 // Finds the stars with ghosts of this depth.
-void check_with_ghosts(Level& level, int hops, const StarsById& alone, const std::string& when) {
+void check_with_ghosts(Level& level, int hops, const Level& alone, const StarsById& expected,
+                       const std::string& when) {
   const std::string where = "with " + std::to_string(hops) + " hops, " + when;
   const double radius = level.settings.list_radius;
   exchange(level, hops);
   const std::int64_t ghosts = level.nodes.count - level.owned_count();
   const pnpbs::NodesWorkedFor before = level.timers.nodes(pnpbs::Phase::stars);
-  make_lists_and_stars(level, hops, radius, {pnpbs::method::kSliverRings});
+  make_lists_and_stars(level, hops, radius, {pnpbs::method::kSliverRings, kReach});
   const pnpbs::NodesWorkedFor after = level.timers.nodes(pnpbs::Phase::stars);
   expect(after.owned > before.owned && after.all - before.all == after.owned - before.owned,
          where + ": stars are found by the owner only");
-  check_stars(level, pnpbs::method::kSliverRings, alone, where);
+  check_stars(level, pnpbs::method::kSliverRings, expected, where);
+  check_pairs(level, alone, where);
   const std::int64_t fetched = level.nodes.count - level.owned_count() - ghosts;
   const auto all_fetched = level.comm->allreduce_sum(static_cast<std::uint64_t>(fetched));
   expect(hops > 1 || all_fetched > 0, where + ": nodes are fetched");
@@ -113,14 +133,14 @@ void check_all() {
   expect(
       level.comm->allreduce_sum(static_cast<std::uint64_t>(level.owned_count())) == expected.size(),
       "the nodes of one rank");
-  check_with_ghosts(level, 1, expected, "from scratch");
-  check_with_ghosts(level, pnpbs::kRepairHops<3>, expected, "from scratch");
+  check_with_ghosts(level, 1, alone, expected, "from scratch");
+  check_with_ghosts(level, pnpbs::kRepairHops<3>, alone, expected, "from scratch");
   for (const double way : {0.2, -0.2, 0.2}) {
     take_stars(level);
     shift_nodes(alone, way);
     shift_nodes(level, way);
     expected = stars_from_scratch(alone);
-    check_with_ghosts(level, 1, expected, "with kept stars");
+    check_with_ghosts(level, 1, alone, expected, "with kept stars");
   }
 }
 
