@@ -14,7 +14,7 @@ template <int Dim>
 bool prepared_for_finish(const Level<Dim>& level) {
   return level.nodes.referenced_here() &&
          level.neighbourhood.built_here(level.nodes, level.settings.list_radius) &&
-         (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops<Dim>));
+         (!level.distributed() || level.ghosts.are_exact(level.nodes, kRepairHops));
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ void require_finish_lists(Level<Dim>& level) {
   if (prepared_for_finish(level)) return;
   take_stars(level);
   level.nodes.set_reference_positions();
-  exchange(level, kRepairHops<Dim>);
+  exchange(level, kRepairHops);
   collective_try(*level.comm,
                  [&] { rebuild_lists(level, level.settings.list_radius, lists_of_stars(level)); });
 }
@@ -37,7 +37,7 @@ void make_finish_stars(Level<Dim>& level, GhostStarDepth zone) {
   require_finish_lists(level);
   const bool of_owned = Dim == 3 && zone.rings == 0 && zone.reach == 0;
   if (of_owned && level.finish_stars == level.version() && !level.changed_labels.any()) return;
-  make_stars(level, kRepairHops<Dim>, level.settings.list_radius, zone);
+  make_stars(level, kRepairHops, level.settings.list_radius, zone);
   level.finish_stars = of_owned ? level.version() : -1;
 }
 

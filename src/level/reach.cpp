@@ -35,10 +35,9 @@ std::int64_t ghost_life(const Settings& settings) {
 }
 
 int deepest_hops(const Settings& settings) {
-  const int repair_hops = settings.bubble_dimension == 3 ? kRepairHops<3> : kRepairHops<2>;
   // Two more: nodes drift out of their leaves, and the neighbours beyond must be known.
   return std::max({step_hops(settings), runge_kutta_hops(settings), kPopulationHops, kDefectHops,
-                   repair_hops}) +
+                   kRepairHops}) +
          2;
 }
 

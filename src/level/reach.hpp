@@ -17,13 +17,11 @@ inline constexpr int kPopulationHops = 3;
 // farther. [hops]
 inline constexpr int kDefectHops = 6;
 // Depth for lists and for the stars of the owned nodes and their neighbours, where d varies little.
-// If stars need nodes farther away, these are fetched, and all stars are found again. [hops]
+// If stars need nodes farther away, these are fetched. [hops]
 inline constexpr int kStarHops = 3;
-// The same depth for the stars of sweeps and repairs, which extend some neighbours farther. Spheres
-// are larger over d than circles. With 5 in space, each repair of a graded cube fetches nodes.
-// [hops]
-template <int Dim>
-inline constexpr int kRepairHops = Dim == 2 ? 4 : 6;
+// The same depth for sweeps and repairs, which read the stars of some neighbours farther and, in
+// space, all nodes within a distance of the owned ones. [hops]
+inline constexpr int kRepairHops = 4;
 
 // Evaluations of the force in a step of the classical Runge-Kutta scheme of fourth order.
 inline constexpr int kRungeKuttaStages = 4;

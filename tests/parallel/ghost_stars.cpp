@@ -64,7 +64,7 @@ void shift_nodes(Level& level, double way) {
 // Finds all stars without earlier ones.
 StarsById stars_from_scratch(Level& level) {
   level.stars_before.forget();
-  make_lists_and_stars(level, pnpbs::kRepairHops<3>, level.settings.list_radius, {});
+  make_lists_and_stars(level, pnpbs::kRepairHops, level.settings.list_radius, {});
   StarsById stars;
   for (std::int64_t i = 0; i < level.nodes.count; ++i)
     stars[level.nodes.id(i)] = volume_tetrahedra::star_by_ids(level.nodes, level.stars, i);
@@ -134,7 +134,7 @@ void check_all() {
       level.comm->allreduce_sum(static_cast<std::uint64_t>(level.owned_count())) == expected.size(),
       "the nodes of one rank");
   check_with_ghosts(level, 1, alone, expected, "from scratch");
-  check_with_ghosts(level, pnpbs::kRepairHops<3>, alone, expected, "from scratch");
+  check_with_ghosts(level, pnpbs::kRepairHops, alone, expected, "from scratch");
   for (const double way : {0.2, -0.2, 0.2}) {
     take_stars(level);
     shift_nodes(alone, way);

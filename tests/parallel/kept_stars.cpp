@@ -93,7 +93,7 @@ bool made_again(Level& level) {
   take_stars(level);
   require_finish_lists(level);
   const bool hold = stars_hold(level);
-  make_stars(level, pnpbs::kRepairHops<3>, level.settings.list_radius, {});
+  make_stars(level, pnpbs::kRepairHops, level.settings.list_radius, {});
   return hold;
 }
 
