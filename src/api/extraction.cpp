@@ -335,18 +335,21 @@ pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capaci
 
 namespace {
 
+void require_local_indices(const std::int64_t* cells, std::int64_t n, std::int64_t corners,
+                           std::int64_t held) {
+  for (std::int64_t k = 0; k < n * corners; ++k)
+    if (cells[k] < 0 || cells[k] >= held)
+      throw Error(ErrorKind::argument, "argument cells[" + std::to_string(k / corners) + "] has " +
+                                           std::to_string(cells[k]) + ", expected 0 to " +
+                                           std::to_string(held - 1));
+}
+
 template <std::size_t corners>
-void find_edges(const MidNodes& mids, std::int64_t n, std::int64_t held, const std::int64_t* cells,
+void find_edges(const MidNodes& mids, std::int64_t n, const std::int64_t* cells,
                 std::int64_t* edges) {
   for (std::int64_t cell = 0; cell < n; ++cell) {
     std::array<std::int64_t, corners> places;
-    for (std::int64_t& place : places) {
-      place = *cells++;
-      if (place < 0 || place >= held)
-        throw Error(ErrorKind::argument, "argument cells[" + std::to_string(cell) + "] has " +
-                                             std::to_string(place) + ", expected 0 to " +
-                                             std::to_string(held - 1));
-    }
+    std::copy_n(cells + static_cast<std::int64_t>(corners) * cell, corners, places.begin());
     const auto found = mids.of(places);
     edges = std::copy(found.begin(), found.end(), edges);
   }
@@ -365,10 +368,10 @@ pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n, in
     if (n > 0) require_pointer(edges, "edges");
     const MidNodes& mids =
         visit_dimension(results, [](auto& in) -> const MidNodes& { return in.mid_nodes(); });
-    const std::int64_t held = results.held();
-    if (corners == 2) find_edges<2>(mids, n, held, cells, edges);
-    if (corners == 3) find_edges<3>(mids, n, held, cells, edges);
-    if (corners == 4) find_edges<4>(mids, n, held, cells, edges);
+    require_local_indices(cells, n, corners, results.held());
+    if (corners == 2) find_edges<2>(mids, n, cells, edges);
+    if (corners == 3) find_edges<3>(mids, n, cells, edges);
+    if (corners == 4) find_edges<4>(mids, n, cells, edges);
     return PNPBS_OK;
   });
 }

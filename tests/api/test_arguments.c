@@ -488,6 +488,28 @@ START_TEST(getting_neighbours) {
 }
 END_TEST
 
+START_TEST(edges) {
+  pnpbs_placement p = it.placement;
+  int64_t count = -1, straight = -1, wrong[6] = {0, 1, 2, 0, 1, INT64_MAX};
+  char need[32];
+  MUST(pnpbs_placement_get_edges(p, 0, &count, &straight, NULL, NULL, NULL));
+  ck_assert_int_eq(straight, 0);
+  snprintf(need, sizeof need, "%lld", (long long)count);
+  REFUSE(ARGUMENT, "count", "NULL", pnpbs_placement_get_edges(p, 0, NULL, NULL, NULL, NULL, NULL));
+  REFUSE(CAPACITY, "capacity = 9", need,
+         pnpbs_placement_get_edges(p, 9, &count, NULL, out.integers, NULL, NULL));
+  REFUSE(CAPACITY, "capacity = 0", need,
+         pnpbs_placement_get_edges(p, 0, &count, NULL, NULL, NULL, out.reals));
+  MUST(pnpbs_placement_find_edges(p, 0, 3, NULL, NULL));
+  REFUSE(ARGUMENT, "n", "-1", pnpbs_placement_find_edges(p, -1, 3, wrong, out.integers));
+  REFUSE(ARGUMENT, "corners", "5", pnpbs_placement_find_edges(p, 1, 5, wrong, out.integers));
+  REFUSE(ARGUMENT, "cells", "NULL", pnpbs_placement_find_edges(p, 1, 3, NULL, out.integers));
+  REFUSE(ARGUMENT, "edges", "NULL", pnpbs_placement_find_edges(p, 1, 3, wrong, NULL));
+  REFUSE(ARGUMENT, "cells[1]", "9223372036854775807",
+         pnpbs_placement_find_edges(p, 2, 3, wrong, out.integers + 1));
+}
+END_TEST
+
 START_TEST(statistics_and_warnings) {
   pnpbs_placement p = it.placement;
   REFUSE(ARGUMENT, "key", "NULL", pnpbs_placement_get_int64(p, NULL, out.integers));
@@ -538,6 +560,8 @@ START_TEST(nothing_yet) {
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_adjacency_size(p, &size), "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_star_size(p, &size), "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_triangles(p, 0, &size, NULL), "no nodes", "");
+  MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_edges(p, 0, &size, NULL, NULL, NULL, NULL),
+            "no nodes", "");
   ck_assert_int_eq(size, 7);
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_check(p), "no nodes", "");
   MUST_FAIL(PNPBS_ERROR_STATE, pnpbs_placement_get_double(p, "d_error.mean", &(double){0}),
@@ -670,6 +694,7 @@ TEST_SUITE(test_arguments) {
   tcase_add_test(cases, computing);
   tcase_add_test(cases, getting_nodes);
   tcase_add_test(cases, getting_neighbours);
+  tcase_add_test(cases, edges);
   tcase_add_test(cases, statistics_and_warnings);
   tcase_add_test(cases, nothing_yet);
   tcase_add_test(cases, domains_that_are_none);

@@ -57,6 +57,35 @@ class Ranks(unittest.TestCase):
     def tearDown(self):
         self.context.close()
 
+    def test_mid_nodes_are_those_of_one_process(self):
+        """Checks elements of second order in a ball: each edge has one number and one mid node on
+        all ranks, as in one process, and the elements refer to them."""
+        def place(context):
+            domain = pnpbs.Domain(context, 3).add_ball((0, 0, 0), 1)
+            placement = pnpbs.Placement(domain, steps=20).set_spacing(0.4)
+            placement.run()
+            return placement, placement.edges()
+
+        def of_numbers(edges):
+            return dict(zip(edges.numbers.tolist(), map(tuple, edges.midpoints.tolist())))
+
+        with pnpbs.Context() as alone:
+            placement, edges = place(alone)
+            expected, count = of_numbers(edges), len(placement.tetrahedra())
+        placement, edges = place(self.context)
+        found = of_numbers(edges)
+        self.assertEqual(found, {number: expected[number] for number in found})
+        self.assertEqual(set().union(*WORLD.allgather(set(found))), set(expected))
+        elements = placement.tetrahedra(order=2)
+        self.assertEqual(WORLD.allreduce(len(elements)), count)
+        first = placement.node_count + placement.ghost_count()
+        for mid, (a, b) in enumerate([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)], 4):
+            np.testing.assert_array_equal(edges.ends[elements[:, mid] - first],
+                                          np.sort(elements[:, [a, b]], axis=1))
+        facets = placement.boundary_triangles(order=2).corners
+        radii = np.linalg.norm(edges.midpoints[facets[:, 3:] - first], axis=2)
+        np.testing.assert_allclose(radii, 1, rtol=2e-4)
+
     def test_nodes_are_those_of_one_process(self):
         with pnpbs.Context() as alone:
             self.assertEqual(self.placement.statistic("hash"), placed_square(alone).statistic("hash"))
