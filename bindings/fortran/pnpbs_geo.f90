@@ -213,7 +213,8 @@ contains
   end subroutine
 
   !> Returns the message of the last error about a domain of these shapes, with longitude and
-  !> latitude after each point "(x, y)". Any other text is returned without changes. Local.
+  !> latitude after each point "(x, y)", then the features with a segment there. Where curves cross,
+  !> advice follows in a line of its own. Any other text is returned without changes. Local.
   function geo_explain(self, message) result(text)
     class(pnpbs_geo_shapes), intent(in) :: self
     character(len=*), intent(in) :: message

@@ -137,7 +137,8 @@ PNPBS_API pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n
 
 /** Returns the message of the last error of pnpbs.h or of this library on the calling thread, with
  *  longitude and latitude inserted after each point "(x, y)" of a domain of these shapes that it
- *  names. `message` may have other words around it; any other text is returned as it is. Local;
+ *  names, then the features with a segment there. Where curves cross, advice follows in a line of
+ *  its own. `message` may have other words around it; any other text is returned as it is. Local;
  *  valid until the next call of this library on this thread. Never NULL. */
 PNPBS_API const char *pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char *message);
 

@@ -29,6 +29,17 @@ std::string grid_index(std::int64_t i, const std::int64_t* size) {
   return text;
 }
 
+// Returns the point of the i-th value on a grid.
+template <int Dim>
+Point<Dim> grid_point(std::int64_t i, const GridArguments& grid) {
+  Point<Dim> x;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    x[k] = grid.origin[k] + static_cast<double>(i % grid.size[k]) * grid.step[k];
+    i /= grid.size[k];
+  }
+  return x;
+}
+
 // Checks a grid except for its values. Returns the number of values.
 template <int Dim>
 std::int64_t check_grid(const GridArguments& grid) {
@@ -118,7 +129,10 @@ std::shared_ptr<const GridSpacing<Dim>> spacing_on_grid(const GridArguments& gri
   const std::int64_t n = check_grid<Dim>(grid);
   for (std::int64_t i = 0; i < n; ++i)
     if (!is_spacing(grid.values[i]))
-      require_spacing_value("argument values" + grid_index<Dim>(i, grid.size), grid.values[i]);
+      throw Error(ErrorKind::spacing, "argument values" + grid_index<Dim>(i, grid.size) + " = " +
+                                          number_text(grid.values[i]) + " at " +
+                                          point_text(grid_point<Dim>(i, grid)) +
+                                          ": the spacing must be finite and greater than 0");
   std::array<std::int64_t, Dim> counts;
   Point<Dim> from, by;
   std::copy_n(grid.size, Dim, counts.begin());

@@ -60,7 +60,9 @@ void add_surfaces(VolumeDomain& domain, const MshMesh& mesh, double feature_angl
        {MshSides::unknown, SurfaceRole::by_place}}};
   const std::vector<MshFacet> facets = facets_of(mesh, 3);
   for (const auto& [sides, role] : kRoles) {
-    const SurfaceTriangles surface = triangles_of(mesh, facets, sides);
+    SurfaceTriangles surface = triangles_of(mesh, facets, sides);
+    for (const auto& [group, name] : mesh.names.all())
+      if (group.dimension == 2) surface.tag_names.emplace_back(group.tag, name);
     if (!surface.triangles.empty()) domain.add_surface(role, surface, feature_angle);
   }
 }

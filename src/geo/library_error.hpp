@@ -28,15 +28,10 @@ inline MessageText last_message(pnpbs_context context) {
   return {pnpbs_last_error(context), std::move(points)};
 }
 
-// Returns the text together with the points that it names. They are known only if the text contains
-// the last message of libpnpbs on this thread, or `last`, the last message of this library.
-inline MessageText with_points(const std::string& text, const MessageText& last) {
-  for (const MessageText& known : {last, last_message(nullptr)}) {
-    const std::size_t at = known.empty() ? std::string::npos : text.find(known.text());
-    if (at != std::string::npos)
-      return text.substr(0, at) + known + text.substr(at + known.text().size());
-  }
-  return text;
+// Returns whether the last error of libpnpbs on this thread is that curves cross or overlap.
+inline bool last_error_is_crossing() {
+  std::int32_t reason = PNPBS_REASON_OTHER;
+  return pnpbs_last_error_data(nullptr, &reason, nullptr) >= 0 && reason == PNPBS_REASON_CROSSING;
 }
 
 }  // namespace pnpbs::geo

@@ -290,8 +290,8 @@ pnpbs_status pnpbs_geo_from_degrees(pnpbs_geo_shapes shapes, int64_t n, double* 
 const char* pnpbs_geo_explain(pnpbs_geo_shapes shapes, const char* message) {
   static thread_local std::string text;
   text = text_of(message);
-  const MessageText known = with_points(text, last_error());
-  guarded(shapes, [&](Object& object) { text = object.shapes.with_degrees(known).text(); });
+  const MessageText last = last_error();
+  guarded(shapes, [&](Object& object) { text = object.shapes.explained(text, last); });
   return text.c_str();
 }
 

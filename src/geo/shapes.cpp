@@ -10,6 +10,8 @@
 #include "geo/library_error.hpp"
 #include "geo/open_boundaries.hpp"
 #include "geo/touching.hpp"
+#include "geometry/plane/segments.hpp"
+#include "sphere/degrees.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -127,6 +129,7 @@ void Shapes::project() {
                                           : extent_of(places_);
   scale_ = projection_.scale_at(places_);
   const auto where = [&](std::int64_t place) { return with_degrees(point_text(places_[place])); };
+  routes_ = routes;
   outlines_ = outlines_of(std::move(routes), places_, where, projection_.sphere_radius());
   if (on_sphere()) outlines_.leave_out_shared_edges_outside(places_);
   lines_along_boundary_ =
@@ -254,17 +257,124 @@ std::int64_t Shapes::inner_curves() const {
   return static_cast<std::int64_t>(outlines_.curves.size()) - boundary_curves();
 }
 
-MessageText Shapes::with_degrees(const MessageText& message) const {
+// ------------------------------------------------------------------ messages --------------------
+namespace {
+
+template <class Words>
+MessageText with_words_after_points(const MessageText& message, const Words& words) {
+  return with_points_replaced(
+      message,
+      [&](const NamedPoint& point, const std::string& text) { return text + words(point); },
+      [](const NamedPoint& point) { return point; });
+}
+
+template <class Visit>
+void for_segments(const Route& route, const Visit& visit) {
+  const std::size_t count = route.places.size();
+  for (std::size_t k = route.kind == PathKind::line ? 1 : 0; k < count; ++k)
+    visit(route.places[k == 0 ? count - 1 : k - 1], route.places[k]);
+}
+
+}  // namespace
+
+// Returns longitude and latitude in brackets, or "" if the point is not projected.
+std::string Shapes::degrees_for(const NamedPoint& point) const {
   const ReferenceSystem& system = projection_.system();
-  if (!system || system.is_geographic()) return message;
-  const auto words = [this](const NamedPoint& point, const std::string& text) {
-    if (point.dimension != 2) return text;
-    std::vector<Point<2>> degrees{{point.x[0], point.x[1]}};
-    projection_.to_degrees(degrees);
-    if (!std::isfinite(degrees[0][0] + degrees[0][1])) return text;
-    return text + " [" + degrees_text(degrees[0]) + "]";
-  };
-  return with_points_replaced(message, words, [](const NamedPoint& point) { return point; });
+  if (!system || system.is_geographic() || point.dimension != 2) return "";
+  std::vector<Point<2>> degrees{{point.x[0], point.x[1]}};
+  projection_.to_degrees(degrees);
+  if (!std::isfinite(degrees[0][0] + degrees[0][1])) return "";
+  return " [" + degrees_text(degrees[0]) + "]";
+}
+
+MessageText Shapes::with_degrees(const MessageText& message) const {
+  return with_words_after_points(message,
+                                 [this](const NamedPoint& point) { return degrees_for(point); });
+}
+
+// Returns one route of each feature that has a segment at the point.
+std::vector<const Route*> Shapes::routes_at(const NamedPoint& point) const {
+  Point<2> x{point.x[0], point.x[1]};
+  double sag = 0;  // of great circles in the projection [length of a segment]
+  if (on_sphere() && point.dimension == 3) {
+    std::vector<Point<2>> projected{degrees_of(point.x)};
+    projection_.from_degrees(projected);
+    x = projected[0];
+    sag = 1e-3;
+  } else if (on_sphere() || point.dimension != 2) {
+    return {};
+  }
+  constexpr double rounding = 1e-9;  // [extent]
+  const double same = rounding * extent_of(places_);
+  std::vector<const Route*> routes;
+  for (const Route& route : routes_) {
+    bool is_at = false;
+    for_segments(route, [&](std::int64_t begin, std::int64_t end) {
+      const Point<2>&a = places_[begin], &b = places_[end];
+      is_at = is_at || distance_to_segment(a, b, x) <= same + sag * distance<2>(a, b);
+    });
+    const bool is_known = std::ranges::any_of(
+        routes, [&](const Route* other) { return other->feature == route.feature; });
+    if (is_at && !is_known) routes.push_back(&route);
+  }
+  return routes;
+}
+
+// Returns the features of the routes with the names of their tags, such as " (feature 3 'shore')".
+std::string Shapes::features_text(const std::vector<const Route*>& routes) const {
+  if (routes.empty()) return "";
+  std::vector<std::string> features;
+  for (const Route* route : routes) {
+    const auto name = layer_.tag_names.find(route->tag);
+    features.push_back("feature " + std::to_string(route->feature) +
+                       (name == layer_.tag_names.end() ? "" : " '" + name->second + "'"));
+  }
+  return " (" + list_text(features, 4) + ")";
+}
+
+// Returns whether two of the polygons have two common vertices or more.
+bool Shapes::are_neighbours(const std::vector<const Route*>& routes) const {
+  std::vector<std::int64_t> places, common;
+  for (const Route* at : routes) {
+    std::vector<std::int64_t> own;
+    for (const Route& route : routes_)
+      if (route.feature == at->feature)
+        own.insert(own.end(), route.places.begin(), route.places.end());
+    std::ranges::sort(own);
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+    places.insert(places.end(), own.begin(), own.end());
+  }
+  std::ranges::sort(places);
+  for (std::size_t k = 1; k < places.size(); ++k)
+    if (places[k] == places[k - 1]) common.push_back(places[k]);
+  return common.size() > 1;
+}
+
+std::string Shapes::advice_on_crossing(const NamedPoint& point) const {
+  const std::vector<const Route*> routes = routes_at(point);
+  if (std::ranges::any_of(routes, [](const Route* at) { return at->kind == PathKind::line; }))
+    return "Give lines a common vertex where they cross: docs/guide/shapes.md, 'Lines that cross'";
+  if (are_neighbours(routes))
+    return "Give neighbouring polygons the same vertices on their common edge: "
+           "docs/guide/shapes.md, 'Neighbours that do not fit'";
+  return "Unite crossing polygons first: docs/guide/shapes.md, 'Polygons that cross'";
+}
+
+std::string Shapes::explained(const std::string& text, const MessageText& last) const {
+  const MessageText of_domain = last_message(nullptr);
+  for (const MessageText* known : {&last, &of_domain}) {
+    const std::size_t at = known->empty() ? std::string::npos : text.find(known->text());
+    if (at == std::string::npos) continue;
+    // Messages of this library name features already.
+    const auto words = [&](const NamedPoint& point) {
+      return degrees_for(point) + (known == &last ? "" : features_text(routes_at(point)));
+    };
+    std::string told = with_words_after_points(*known, words).text();
+    if (known == &of_domain && last_error_is_crossing() && !known->points().empty())
+      told += "\n" + advice_on_crossing(known->points().front());
+    return text.substr(0, at) + told + text.substr(at + known->text().size());
+  }
+  return text;
 }
 
 }  // namespace pnpbs::geo

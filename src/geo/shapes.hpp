@@ -36,10 +36,19 @@ class Shapes {
   std::int64_t inner_curves() const;
   std::int64_t points() const { return static_cast<std::int64_t>(layer_.spots.size()); }
 
-  // Returns the message with longitude and latitude added after each projected point.
-  MessageText with_degrees(const MessageText& message) const;
+  // Returns the text with additions to the message in it: `last`, the last one of this library, or
+  // the last one of libpnpbs on this thread. Longitude and latitude are added after each projected
+  // point, then the features with a segment there, and advice where curves cross. Any other text is
+  // returned as it is.
+  std::string explained(const std::string& text, const MessageText& last) const;
 
  private:
+  MessageText with_degrees(const MessageText& message) const;
+  std::string degrees_for(const NamedPoint& point) const;
+  std::vector<const Route*> routes_at(const NamedPoint& point) const;
+  std::string features_text(const std::vector<const Route*>& routes) const;
+  bool are_neighbours(const std::vector<const Route*>& routes) const;
+  std::string advice_on_crossing(const NamedPoint& point) const;
   void project();
   void take_notes();
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
@@ -47,12 +56,13 @@ class Shapes {
   MessageText words_for(const Point<2>& given, std::int64_t feature) const;
   std::string words_for(const Curve& curve) const;
 
-  LayerShapes layer_;  // its paths are moved into outlines_
+  LayerShapes layer_;  // its paths are moved into routes_
   Projection projection_;
   Projection::Scale scale_;
   std::vector<Point<2>> places_;
   // Feature in which each vertex of the file first appears.
   std::vector<std::int64_t> feature_of_place_;
+  std::vector<Route> routes_;  // what the file has
   Outlines outlines_;
   std::int64_t lines_along_boundary_ = 0;
 };

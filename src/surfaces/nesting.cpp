@@ -236,7 +236,7 @@ namespace {
 
 // Determines the roles of the dividing triangles of one source.
 void find_roles_of_source(Triangulation& surface, std::int32_t source) {
-  Triangulation alone{surface.sources, surface.vertices, surface.given, {}};
+  Triangulation alone{surface.sources, surface.tag_names, surface.vertices, surface.given, {}};
   std::vector<std::size_t> number;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     if (surface.triangles[t].source == source) {

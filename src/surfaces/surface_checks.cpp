@@ -124,7 +124,7 @@ MessageText text_of(const Triangulation& surface, const Pair& pair) {
 }  // namespace
 
 void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
-  constexpr std::size_t kListed = 20;
+  constexpr std::size_t kListed = 5;
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::int64_t pairs = 0;
   std::set<Pair> first;
@@ -142,8 +142,9 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
   }
   if (pairs == 0) return;
   MessageText message;
-  for (const Pair& pair : first) message += (message.empty() ? "" : "; ") + text_of(surface, pair);
-  if (pairs > 1) message += "; there are " + std::to_string(pairs) + " such pairs";
+  for (const Pair& pair : first) message += (message.empty() ? "" : "\n") + text_of(surface, pair);
+  const std::int64_t others = pairs - std::ssize(first);
+  if (others > 0) message += "\nand " + std::to_string(others) + " more such pairs";
   throw BrokenSurface(message);
 }
 

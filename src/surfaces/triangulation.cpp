@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surfaces/triangulation.hpp"
 
+#include <algorithm>
+
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 
@@ -39,7 +41,11 @@ MessageText Triangulation::vertex_name(std::int32_t v) const {
 }
 
 std::string Triangulation::triangle_name(std::int32_t t) const {
-  return "triangle " + std::to_string(triangles[t].number) + " of " + sources[triangles[t].source];
+  const SurfaceTriangle& triangle = triangles[t];
+  const TagNameList& names = tag_names[triangle.source];
+  const auto name = std::ranges::find(names, triangle.tag, &TagNameList::value_type::first);
+  return "triangle " + std::to_string(triangle.number) + " of " + sources[triangle.source] +
+         (name == names.end() ? "" : " '" + name->second + "'");
 }
 
 Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
@@ -49,6 +55,7 @@ Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
     const auto source = static_cast<std::int32_t>(s);
     const auto first = static_cast<std::int32_t>(all.vertices.size());
     all.sources.push_back(surface.name);
+    all.tag_names.push_back(surface.tag_names);
     for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
       all.vertices.push_back(surface.vertices[v]);
       all.given.push_back({source, static_cast<std::int32_t>(v)});

@@ -41,6 +41,9 @@ struct SurfaceCrease {
   std::array<Point<3>, 2> normals;  // unit; left and right of the direction from the first vertex
 };
 
+// Tags of triangles with their names, such as those of the solids in a file.
+using TagNameList = std::vector<std::pair<std::int32_t, std::string>>;
+
 // A surface as it was added.
 struct SurfaceSource {
   std::string name;  // for messages, such as "surface 0" or "ball 1"
@@ -48,6 +51,7 @@ struct SurfaceSource {
   std::vector<Point<3>> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> tags;             // per triangle
+  TagNameList tag_names;                      // for messages
   std::shared_ptr<const LevelSet> level_set;  // the level set of this surface, or null
   bool approximates = false;  // true for curved surfaces that were not given as triangles
   double feature_angle = kFeatureAngle;  // [degrees]
@@ -78,7 +82,8 @@ struct Triangulation {
     std::int32_t source, number;
   };
 
-  std::vector<std::string> sources;  // names of the sources
+  std::vector<std::string> sources;    // names of the sources
+  std::vector<TagNameList> tag_names;  // per source
   std::vector<Point<3>> vertices;
   std::vector<GivenVertex> given;  // per vertex
   std::vector<SurfaceTriangle> triangles;
@@ -87,7 +92,7 @@ struct Triangulation {
   Box<3> box(std::int32_t t) const;
 
   MessageText vertex_name(std::int32_t v) const;    // such as "vertex 5 of surface 0 (1, 2, 3)"
-  std::string triangle_name(std::int32_t t) const;  // such as "triangle 5 of surface 0"
+  std::string triangle_name(std::int32_t t) const;  // such as "triangle 5 of surface 0 'wing'"
 };
 
 // Joins the triangles of all surfaces. Vertices are numbered consecutively and not yet welded.

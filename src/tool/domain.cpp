@@ -156,14 +156,6 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
                  (known.empty() ? " (the domain has no named ones)" : " (known: " + list + ")"));
 }
 
-// Many coastlines in use cross themselves or each other somewhere, by a few metres.
-std::string advice_on(pnpbs_context context) {
-  std::int32_t reason = PNPBS_REASON_OTHER;
-  check(pnpbs_last_error_data(context, &reason, nullptr), context);
-  if (reason != PNPBS_REASON_CROSSING) return "";
-  return "\nUnite crossing polygons first: docs/guide/shapes.md, 'Polygons that cross'";
-}
-
 }  // namespace
 
 DomainSource::DomainSource(const Arguments& arguments)
@@ -228,8 +220,7 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
     return repair(domain, 0, context);
   }
   if (geo_ && status < 0)
-    throw Failure(exit_code_of(status),
-                  geo_->explained(pnpbs_last_error(context)) + advice_on(context));
+    throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));
   check(status, context);
 }
 

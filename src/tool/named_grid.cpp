@@ -182,6 +182,29 @@ void turn_layers_upside_down(Grid& grid) {
                        layer + (rows - 1 - row) * columns);
 }
 
+// Returns the location of a value. Rows are counted from the north, as in the file.
+std::string place_of_value(const Grid& grid, std::size_t value, int dimension) {
+  const auto i = static_cast<std::int64_t>(value);
+  const std::int64_t at[] = {i % grid.size[0], i / grid.size[0] % grid.size[1],
+                             i / grid.size[0] / grid.size[1]};
+  double x[3];
+  for (int k = 0; k < 3; ++k) x[k] = grid.origin[k] + static_cast<double>(at[k]) * grid.step[k];
+  const bool has_layers = grid.size[2] > 1;
+  return "row " + std::to_string(grid.size[1] - at[1]) + ", column " + std::to_string(at[0] + 1) +
+         (has_layers ? ", layer " + std::to_string(at[2] + 1) : "") + ", at " +
+         place_text(x, has_layers ? dimension : 2, false);
+}
+
+// Throws if a value that is not declared as missing is not a number.
+void require_numbers(const Grid& grid, const std::string& path, int dimension) {
+  const auto wrong = std::ranges::find_if(grid.values, [](double v) { return !std::isfinite(v); });
+  if (wrong == grid.values.end()) return;
+  const auto i = static_cast<std::size_t>(wrong - grid.values.begin());
+  throw BadInput(path + ": the value in " + place_of_value(grid, i, dimension) + " is " +
+                 number_text(*wrong) +
+                 ": expected a number, or the header line 'nodata_value nan' for missing values");
+}
+
 // Spreads values to cells without data from their neighbours, one ring at a time.
 void fill_gaps(Grid& grid, double no_data, const Words& words) {
   std::deque<std::int64_t> front;
@@ -243,7 +266,16 @@ Grid read_grid(const std::string& path, int dimension) {
   turn_layers_upside_down(grid);
   const auto no_data = header.find("nodata_value");
   fill_gaps(grid, no_data == header.end() ? -9999.0 : no_data->second, words);
+  require_numbers(grid, path, dimension);
   return grid;
+}
+
+void require_spacings(const Grid& grid, const std::string& path, int dimension) {
+  const auto wrong = std::ranges::find_if(grid.values, [](double value) { return value <= 0; });
+  if (wrong == grid.values.end()) return;
+  const auto i = static_cast<std::size_t>(wrong - grid.values.begin());
+  throw BadInput(path + ": the value in " + place_of_value(grid, i, dimension) + " is " +
+                 number_text(*wrong) + ": d must be greater than 0");
 }
 
 double value_at(const Grid& grid, const double* place, int dimension) {

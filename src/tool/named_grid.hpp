@@ -35,6 +35,10 @@ struct Grid {
 // expected.
 Grid read_grid(const std::string& path, int dimension);
 
+// Throws BadInput with the file, row, column and position of the first value that cannot be d: one
+// that is zero, negative or not finite.
+void require_spacings(const Grid& grid, const std::string& path, int dimension);
+
 // Interpolates the values linearly in each direction, and extends them as constants beyond the
 // border, as pnpbs_placement_set_spacing_grid does. In two dimensions the lowest layer is used.
 double value_at(const Grid& grid, const double* place, int dimension);

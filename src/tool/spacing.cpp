@@ -64,7 +64,9 @@ Spacing::Spacing(const Arguments& arguments, int dimension, const NamedGrids& gr
 }
 
 void Spacing::use_read_grids(const NamedGrids& grids) {
-  if (!grid_ || grid_->text_grid()) return;
+  if (!grid_) return;
+  if (const Grid* const text = grid_->text_grid())
+    return require_spacings(*text, grid_->path(), dimension_);
   expression_ =
       std::make_unique<Expression>(formula_, dimension_, "--spacing-grid",
                                    Expression::Names::coordinates, grids.fields_in(formula_));

@@ -350,7 +350,7 @@ START_TEST(spacings) {
   REFUSE(ARGUMENT, "step[1] = -1", "greater",
          pnpbs_placement_set_spacing_grid(p, size, o, back_h, v));
   REFUSE(ARGUMENT, "step[1]", "inf", pnpbs_placement_set_spacing_grid(p, size, o, far_h, v));
-  REFUSE(SPACING, "values[0][1] = 0", "greater",
+  REFUSE(SPACING, "values[0][1] = 0 at (1, 0)", "greater",
          pnpbs_placement_set_spacing_grid(p, size, o, h, zero));
   REFUSE(SPACING, "values[1][0] = -3", "greater",
          pnpbs_placement_set_spacing_grid(p, size, o, h, below));

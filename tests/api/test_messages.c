@@ -161,19 +161,23 @@ START_TEST(codes_and_numbers) {
 }
 END_TEST
 
-START_TEST(numbers_without_a_point) {
-  const double slit[10] = {0, 0, 1, 0, 1, 0.01, 1, 1, 0, 1};
+/* The first warning names a point, the second one does not. */
+START_TEST(numbers_with_and_without_a_point) {
+  const double slit[10] = {0, 0, 1, 0, 1, 0.01, 1, 1, 0, 1}, unused[2] = {0.5, 0.5};
   job it = {0};
   warning found;
   MUST(pnpbs_context_create_serial(&it.context));
   MUST(pnpbs_domain_create(it.context, 2, &it.domain));
   MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 5, slit, NULL, 0));
+  MUST(pnpbs_domain_add_pslg(it.domain, 1, unused, NULL, 0, NULL, NULL, 0, NULL));
   job_place(&it);
   MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
   MUST(pnpbs_placement_initialise(it.placement));
   found = warning_of(it.placement, PNPBS_WARNING_FEATURE_UNRESOLVED);
   ck_assert_int_eq(found.count, 1);
   ck_assert_double_eq_tol(found.value, 0.1, 1e-12); /* 0.01 / d */
+  ck_assert(found.point[0] == 1 && found.point[1] == 0 && isnan(found.point[2]));
+  found = warning_of(it.placement, PNPBS_WARNING_UNUSED_VERTICES);
   ck_assert(isnan(found.point[0]) && isnan(found.point[1]) && isnan(found.point[2]));
   job_end(&it);
 }
@@ -283,7 +287,7 @@ TEST_SUITE(test_messages) {
   tcase_add_test(all, points_on_a_sphere);
   tcase_add_test(all, points_in_the_plane);
   tcase_add_test(all, codes_and_numbers);
-  tcase_add_test(all, numbers_without_a_point);
+  tcase_add_test(all, numbers_with_and_without_a_point);
   tcase_add_test(all, warnings_on_a_sphere);
   tcase_add_test(all, in_checkpoints);
   tcase_add_test(all, coordinates_beyond_all_limits);

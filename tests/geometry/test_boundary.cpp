@@ -248,7 +248,7 @@ START_TEST(nodes_beside_another_curve_are_named) {
   const Boundary inside = lay(wedge, constant(0.1));
   expect_valid(inside);
   ck_assert(warns(inside, "boundary nodes closer than a tenth of it to another edge"));
-  ck_assert(warns(inside, "(distance 1e-07, spacing 0.1)"));
+  ck_assert(warns(inside, "(distance 1e-07, spacing 0.1, at ("));
   PlaneDomain slit;
   add_loop(slit, {{-1, -1, 1, -1, 1, 0, 0, 0, 1, mouth, 1, 1, -1, 1}});
   const Boundary outside = lay(slit, constant(0.1));
@@ -372,7 +372,7 @@ START_TEST(short_edges_are_told) {
   graph.add_to(domain);
   const Boundary boundary = lay(domain, constant(1));
   ck_assert(warns(boundary, "at 1 boundary edges"));
-  ck_assert(warns(boundary, "segment 3 (length 0.2236, spacing 1)"));
+  ck_assert(warns(boundary, "segment 3 (length 0.2236, spacing 1, at (0.1, 10))"));
   ck_assert(lay(domain, constant(0.2)).warnings.empty());
 }
 END_TEST
@@ -384,7 +384,7 @@ START_TEST(close_fixed_nodes_are_told) {
   domain.add_fixed_nodes(5, xy, nullptr);
   const Boundary boundary = lay(domain, constant(1));
   ck_assert(warns(boundary, "3 fixed nodes are closer than 0.4"));
-  ck_assert(warns(boundary, "fixed node 1 (distance 0.3, spacing 1)"));
+  ck_assert(warns(boundary, "fixed node 1 (distance 0.3, spacing 1, at (5, 0.3))"));
   ck_assert_int_eq(boundary.nodes[boundary.first_fixed + 3].tag, 1);
   ck_assert(lay(domain, constant(0.4)).warnings.empty());
 }

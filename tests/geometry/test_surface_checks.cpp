@@ -347,7 +347,7 @@ START_TEST(crossing_surfaces_are_told_with_both_triangles_and_the_place) {
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
   tetrahedron({0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}, {0.5, 0.6, 0.5}, {0.5, 0.5, 3}).add_to(domain);
   expect_domain_error(
-      domain, {"of box 0 and triangle", "of surface 0 cross at (0.5", ", 1)", "such pairs"});
+      domain, {"of box 0 and triangle", "of surface 0 cross at (0.5", ", 1)", "\ntriangle"});
 }
 END_TEST
 

@@ -263,7 +263,8 @@ class Shapes(Handle):
 
     def explain(self, message: object) -> str:
         """Returns the message of the last error about a domain of these shapes, with longitude and
-        latitude after each point. Any other text is returned without changes."""
+        latitude after each point, then the features with a segment there. Where curves cross, advice
+        follows in a line of its own. Any other text is returned without changes."""
         text = _library().pnpbs_geo_explain(self._live(), str(message).encode())
         return str(text.decode())
 

@@ -37,8 +37,8 @@ struct Worst {
 };
 
 // Returns a list of the worst locations; name(which) returns the name of one. On a sphere, lengths
-// are measured along the sphere, and positions are included because users do not know the numbers
-// of coasts read from files.
+// are measured along the sphere. Positions are included because users do not know the numbers of
+// curves read from files.
 template <class Name>
 MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedding<2>& embedding,
                        const Name& name) {
@@ -50,8 +50,7 @@ MessageText worst_text(std::vector<Worst>& all, const char* length, const Embedd
       return rounded_text(embedding.measured_length(worst.at, chart_length));
     };
     names.push_back(name(worst.which) + " (" + length + " " + measured(worst.distance) +
-                    ", spacing " + measured(worst.spacing) +
-                    (embedding.is_sphere() ? ", at " + point_text(worst.at) : MessageText()) + ")");
+                    ", spacing " + measured(worst.spacing) + ", at " + point_text(worst.at) + ")");
   }
   return list_text(names, kNamedWorst);
 }
@@ -171,6 +170,16 @@ class BoundaryDiscretizer {
     return track(edge).is_straight(begin_station(edge), end_station(edge));
   }
 
+  // Returns the name of the segments along an edge, with the name of their tag, if it has one.
+  std::string edge_name(std::int32_t edge) const {
+    const CurveTrack& on = track(edge);
+    const std::size_t first = on.segment_at(begin_station(edge));
+    std::size_t last = std::max(first, on.segment_at(end_station(edge)));
+    if (last > first && on.vertex_stations()[last] >= end_station(edge)) --last;
+    const std::string* const group = domain_.names().find({1, on.curve().tag});
+    return on.curve().name_of_part(first, last) + (group ? " of '" + *group + "'" : "");
+  }
+
   // ------------------------------------------------------------ check of the edges
   // Returns the edges that cross others or that have nodes on the wrong side.
   std::vector<std::int32_t> inconsistent_edges() const {
@@ -264,7 +273,7 @@ class BoundaryDiscretizer {
   [[noreturn]] void reject(const std::vector<std::int32_t>& edges) const {
     std::vector<std::string> names;
     for (const std::int32_t edge : edges) {
-      const std::string& name = track(edge).curve().name;
+      const std::string name = edge_name(edge);
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
       if (names.size() == kNamedWorst) break;
     }
@@ -323,12 +332,15 @@ class BoundaryDiscretizer {
     // against all others, often with exact arithmetic.
     constexpr double kNothingWithin = 20;
     const double size = size_of(domain_.bounds());  // bubbles are not larger than the domain
-    double sum = 0, work = 0;
+    double sum = 0, work = 0, finest = 0;
     std::int64_t fine = 0;
-    for (const auto& [a, b] : ends_) {
+    std::int32_t worst = 0;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(ends_.size()); ++e) {
+      const auto [a, b] = ends_[e];
       const double d = std::min(0.5 * (d_[a] + d_[b]), size);
       const double ratio = d / distance<2>(positions_[a], positions_[b]);
       if (ratio <= kFine) continue;
+      if (ratio > finest) finest = ratio, worst = e;
       sum += ratio;
       work += d > 0.4 * size ? kNothingWithin * ratio : ratio;
       ++fine;
@@ -337,7 +349,9 @@ class BoundaryDiscretizer {
     throw Error(ErrorKind::spacing,
                 "the boundary is far finer than the spacing: " + std::to_string(fine) +
                     " of its edges are " + rounded_text(sum / static_cast<double>(fine)) +
-                    " times shorter than d; use a smaller d, leave out vertices (simplify), or set "
+                    " times shorter than d, such as " + edge_name(worst) + " at " +
+                    point_text(positions_[ends_[worst][0]]) +
+                    "; use a smaller d, leave out vertices (simplify), or set "
                     "the angle that makes a corner (corner_angle): between corners, nodes are "
                     "placed at distances of d");
   }
@@ -355,8 +369,7 @@ class BoundaryDiscretizer {
         WarningCode::feature_unresolved,
         "the spacing is larger than features of the boundary at " + std::to_string(all.size()) +
             " boundary edges shorter than half of it; the worst: ",
-        all, "length", domain_.embedding(),
-        [this](std::int32_t e) { return track(e).curve().name; },
+        all, "length", domain_.embedding(), [this](std::int32_t e) { return edge_name(e); },
         advice_on_short_edges(all.size(), ends_.size())));
   }
 
@@ -391,8 +404,7 @@ class BoundaryDiscretizer {
         WarningCode::feature_unresolved,
         "the spacing is larger than features of the boundary at " + std::to_string(nearest.size()) +
             " boundary nodes closer than a tenth of it to another edge; the worst: beside ",
-        nearest, "distance", domain_.embedding(),
-        [this](std::int32_t e) { return track(e).curve().name; }));
+        nearest, "distance", domain_.embedding(), [this](std::int32_t e) { return edge_name(e); }));
   }
 
   // Returns true if the domain lies on the side of the edge on which the node lies.

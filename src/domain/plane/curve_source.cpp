@@ -5,16 +5,10 @@
 
 namespace pnpbs {
 
-namespace {
-
-std::string prefix(const CurveSource& source) {
-  if (source.kind != CurveSource::Kind::graph) {
-    return "curve " + std::to_string(source.number) + ", ";
-  }
-  return source.number == 0 ? "" : "graph " + std::to_string(source.number) + ", ";
+std::string CurveSource::name_prefix() const {
+  if (kind != Kind::graph) return "curve " + std::to_string(number) + ", ";
+  return number == 0 ? "" : "graph " + std::to_string(number) + ", ";
 }
-
-}  // namespace
 
 std::int64_t CurveSource::segment_count() const {
   if (kind == Kind::graph) return static_cast<std::int64_t>(segment_ends.size());
@@ -47,10 +41,10 @@ bool CurveSource::ends_at(std::int64_t point) const {
 
 std::string CurveSource::point_name(std::int64_t point) const {
   if (kind != Kind::smooth)
-    return prefix(*this) + "vertex " + std::to_string(first_number + point_number(point));
-  if (point == 0) return prefix(*this) + "begin";
-  if (ends_at(point)) return prefix(*this) + "end";
-  return prefix(*this) + "t = " + number_text(parameters[static_cast<std::size_t>(point)]);
+    return name_prefix() + "vertex " + std::to_string(first_number + point_number(point));
+  if (point == 0) return name_prefix() + "begin";
+  if (ends_at(point)) return name_prefix() + "end";
+  return name_prefix() + "t = " + number_text(parameters[static_cast<std::size_t>(point)]);
 }
 
 std::string CurveSource::segment_name(std::int64_t segment) const {
@@ -59,12 +53,19 @@ std::string CurveSource::segment_name(std::int64_t segment) const {
 
 std::string CurveSource::segments_name(std::int64_t first, std::int64_t last) const {
   if (kind == Kind::smooth) return "curve " + std::to_string(number);
-  const std::int64_t from = first_number + segment_number(first);
-  if (first == last) return prefix(*this) + "segment " + std::to_string(from);
-  // Segments that were reordered do not have consecutive numbers.
-  const char* const until = segment_numbers.empty() ? " to " : " and on to ";
-  return prefix(*this) + "segments " + std::to_string(from) + until +
-         std::to_string(first_number + segment_number(last));
+  return chain_name(name_prefix(), shown_segment_number(first), shown_segment_number(last),
+                    !segment_numbers.empty());
+}
+
+std::int64_t CurveSource::shown_segment_number(std::int64_t segment) const {
+  return first_number + segment_number(segment);
+}
+
+std::string chain_name(const std::string& prefix, std::int64_t from, std::int64_t until,
+                       bool reordered) {
+  if (from == until) return prefix + "segment " + std::to_string(from);
+  return prefix + "segments " + std::to_string(from) + (reordered ? " and on to " : " to ") +
+         std::to_string(until);
 }
 
 }  // namespace pnpbs

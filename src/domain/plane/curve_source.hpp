@@ -65,6 +65,16 @@ struct CurveSource {
   std::string point_name(std::int64_t point) const;
   std::string segment_name(std::int64_t segment) const;
   std::string segments_name(std::int64_t first, std::int64_t last) const;
+
+  // Returns the beginning of all names of this source: "curve 3, ", or "" for the first graph.
+  std::string name_prefix() const;
+  // Returns the number of a segment in messages.
+  std::int64_t shown_segment_number(std::int64_t segment) const;
 };
+
+// Returns the name of a chain of segments with these first and last numbers. The numbers between
+// them need not be consecutive if `reordered` is true.
+std::string chain_name(const std::string& prefix, std::int64_t from, std::int64_t until,
+                       bool reordered);
 
 }  // namespace pnpbs

@@ -446,8 +446,19 @@ class Resolver {
     }
     curve.left_inside = curve.left_face > 0;
     curve.right_inside = curve.right_face > 0;
-    curve.name = source.segments_name(graph_.edges[first].segment, graph_.edges[last].segment);
+    name(curve, source, chain);
     result_.curves.push_back(std::move(curve));
+  }
+
+  void name(BoundaryCurve& curve, const CurveSource& source,
+            const std::vector<std::size_t>& chain) const {
+    curve.name = source.segments_name(graph_.edges[chain.front()].segment,
+                                      graph_.edges[chain.back()].segment);
+    if (source.kind == Kind::smooth) return;
+    curve.name_prefix = source.name_prefix();
+    curve.reordered = !source.segment_numbers.empty();
+    for (const std::size_t edge : chain)
+      curve.segment_numbers.push_back(source.shown_segment_number(graph_.edges[edge].segment));
   }
 
   void make_corners() {

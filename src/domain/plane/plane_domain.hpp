@@ -33,6 +33,11 @@ struct BoundaryCurve {
   bool left_inside;   // is the domain on the left when going from begin to end?
   bool right_inside;  // an inner curve has both
   std::string name;   // for messages, such as "segment 12" or "curve 3"
+  // For messages, unless `evaluate` is set: the numbers of the segments between the points, and
+  // whether they may have gaps.
+  std::vector<std::int64_t> segment_numbers;
+  bool reordered = false;
+  std::string name_prefix;  // such as "curve 3, "
   // Faces on both sides, into which curves divide the inside: 1, 2, ... inside, 0 outside.
   std::int32_t left_face = 0;
   std::int32_t right_face = 0;
@@ -41,6 +46,11 @@ struct BoundaryCurve {
 
   // Returns true if the domain lies on exactly one side.
   bool bounds() const { return left_inside != right_inside; }
+  // Returns the name of the part from segment `first` to `last`.
+  std::string name_of_part(std::size_t first, std::size_t last) const {
+    if (segment_numbers.empty()) return name;
+    return chain_name(name_prefix, segment_numbers[first], segment_numbers[last], reordered);
+  }
 };
 
 // An end of boundary curves. It always has a node.

@@ -239,6 +239,7 @@ void VolumeDomain::add_surface(SurfaceRole role, const SurfaceTriangles& surface
   if (surface.divides && role == SurfaceRole::boundary) role = SurfaceRole::dividing;
   add_surface(role, std::ssize(surface.vertices), surface.vertices.data()->data(),
               std::ssize(surface.triangles), corners.data(), surface.tags.data(), feature_angle);
+  surfaces_.back().tag_names = surface.tag_names;
   for (std::size_t k = 0; k < surface.holes.size(); ++k)
     add_hole_of_file(surface.holes[k],
                      "hole " + std::to_string(k) + " of " + surfaces_.back().name);

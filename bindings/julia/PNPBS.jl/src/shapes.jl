@@ -171,7 +171,8 @@ end
     explain(shapes, message) -> String
 
 Returns the message of the last error about a domain of these shapes, with longitude and latitude
-after each point "(x, y)". Any other text is returned without changes.
+after each point "(x, y)", then the features with a segment there. Where curves cross, advice
+follows in a line of its own. Any other text is returned without changes.
 """
 explain(shapes::Shapes, message::AbstractString) =
     string_or_empty(LibPNPBSGeo.pnpbs_geo_explain(live(shapes), message))

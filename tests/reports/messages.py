@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Messages must name what is wrong, where it is, and what helps for this kind of input."""
+
+import json
+import math
+
+from cases import Case, run
+from command import BAD_INPUT
+
+SQUARE = [[0, 0], [1000, 0], [1000, 1000], [0, 1000]]
+
+
+def features(*shapes):
+    """A layer of features, each a kind of geometry, its coordinates and a name."""
+    return json.dumps({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"name": name},
+         "geometry": {"type": kind, "coordinates": coordinates}}
+        for kind, coordinates, name in shapes]})
+
+
+def polygon(name, *rings):
+    return "Polygon", [[*ring, ring[0]] for ring in rings], name
+
+
+def ring(corners, radius, x, y):
+    return [[x + radius * math.cos(2 * math.pi * k / corners),
+             y + radius * math.sin(2 * math.pi * k / corners)] for k in range(corners)]
+
+
+def poly(*more_vertices, segments=()):
+    """The unit square as a .poly file, with more vertices and segments between vertices."""
+    vertices = [(0, 0), (1, 0), (1, 1), (0, 1), *more_vertices]
+    sides = [(1, 2), (2, 3), (3, 4), (4, 1), *segments]
+    return (f"{len(vertices)} 2 0 0\n"
+            + "".join(f"{k + 1} {x!r} {y!r}\n" for k, (x, y) in enumerate(vertices))
+            + f"{len(sides)} 0\n" + "".join(f"{k + 1} {a} {b}\n" for k, (a, b) in enumerate(sides))
+            + "0\n")
+
+
+def solids(form):
+    """Three tetrahedra that overlap, as the solids of an STL or the groups of an OBJ."""
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    text, first = "", 1
+    for name, (x, y, z) in {"housing": (0, 0, 0), "shaft": (0.1, 0.1, 0.1),
+                              "bolt": (0.2, 0.1, 0.15)}.items():
+        corners = [(x, y, z), (x + 1, y, z), (x, y + 1, z), (x, y, z + 1)]
+        if form == "stl":
+            text += f"solid {name}\n" + "".join(
+                "facet normal 0 0 0\nouter loop\n"
+                + "".join("vertex {} {} {}\n".format(*corners[i]) for i in face)
+                + "endloop\nendfacet\n" for face in faces) + f"endsolid {name}\n"
+        else:
+            text += "".join("v {} {} {}\n".format(*corner) for corner in corners) + f"g {name}\n"
+            text += "".join(f"f {a + first} {b + first} {c + first}\n" for a, b, c in faces)
+            first += 4
+    return text
+
+
+GRID = """\
+ncols 4
+nrows 3
+xllcenter 0
+yllcenter 0
+cellsize 0.5
+nodata_value -9999
+0.1 0.1 {} 0.1
+0.1 0.1 0.1 0.1
+0.1 0.1 0.1 0.1
+"""
+IN_PLANE = "--projection none --spacing 100"
+GEO = {"code": BAD_INPUT, "needs_gdal": True}
+
+CASES = [
+    # ------------------------------------------------ curves that cross
+    Case("lines that cross",
+         {"a.geojson": features(polygon("block", SQUARE),
+                                ("LineString", [[100, 100], [900, 900]], "fault A"),
+                                ("LineString", [[100, 900], [900, 100]], "fault B"))},
+         "--domain a.geojson " + IN_PLANE, **GEO,
+         says=("cross at (500, 500) (feature 1, feature 2)\n", "Give lines a common vertex"),
+         omits=("Unite",)),
+    Case("the names of lines that cross",
+         {"a.geojson": features(polygon("block", SQUARE),
+                                ("LineString", [[100, 100], [900, 900]], "fault A"),
+                                ("LineString", [[100, 900], [900, 100]], "fault B"))},
+         "--domain a.geojson --tag-field name " + IN_PLANE, **GEO,
+         says=("(feature 1 'fault A', feature 2 'fault B')\n",)),
+    Case("a line that crosses the outline of a polygon",
+         {"a.geojson": features(polygon("block", SQUARE),
+                                ("LineString", [[500, 500], [1500, 500]], "fault"))},
+         "--domain a.geojson " + IN_PLANE, **GEO, says=("Give lines a common vertex",),
+         omits=("Unite",)),
+    Case("neighbouring polygons whose common edge differs",
+         {"a.geojson": features(
+             polygon("field", [[0, 0], [500, 0], [510, 400], [490, 600], [500, 1000], [0, 1000]]),
+             polygon("wood", [[500, 0], [1000, 0], [1000, 1000], [500, 1000], [510, 600],
+                              [490, 400]]))},
+         "--domain a.geojson " + IN_PLANE, **GEO, says=("Give neighbouring polygons the same vertices",),
+         omits=("Unite", "lines")),
+    Case("polygons that cross",
+         {"a.geojson": features(polygon("land", SQUARE),
+                                polygon("land", [[x + 500, y + 300] for x, y in SQUARE]))},
+         "--domain a.geojson " + IN_PLANE, **GEO, says=("Unite crossing polygons",)),
+
+    # ------------------------------------------------ missing values
+    Case("a value of a grid that is no number", {"a.poly": poly(), "d.asc": GRID.format("nan")},
+         "--domain a.poly --spacing-grid d.asc", code=BAD_INPUT,
+         says=("d.asc: the value in row 1, column 3, at (1, 1) is nan: ",), omits=("argument",)),
+    Case("the same in a formula", {"a.poly": poly(), "d.asc": GRID.format("nan")},
+         "--domain a.poly --spacing 'min(grid, 1)' --spacing-grid d.asc", code=BAD_INPUT,
+         says=("d.asc: the value in row 1, column 3, at (1, 1) is nan: ",)),
+    Case("a value of a grid that is no spacing", {"a.poly": poly(), "d.asc": GRID.format("0")},
+         "--domain a.poly --spacing-grid d.asc", code=BAD_INPUT,
+         says=("d.asc: the value in row 1, column 3, at (1, 1) is 0: ",), omits=("argument",)),
+    Case("such a value in a layer",
+         {"d.asc": "ncols 1\nnrows 2\nnlayers 2\nxllcenter 0\nyllcenter 0\nzllcenter 0\ncellsize 1\n"
+                   "0.5 0.5 0.5 -1\n"},
+         "--domain 'box(0,0,0, 1,1,1)' --spacing-grid d.asc", code=BAD_INPUT,
+         says=("row 2, column 1, layer 2, at (0, 0, 1) is -1: ",)),
+
+    # ------------------------------------------------ names of curves and locations
+    Case("a hole beside a finely sampled outline",
+         {"a.geojson": features(polygon("basin", ring(1231, 1000, 0, 0), ring(24, 60, 930, 0)))},
+         "--domain a.geojson --corner-angle 45 --tag-field name --projection none --spacing 200",
+         needs_gdal=True,
+         says=("beside curve 0, segments 1191 to 1230 of 'basin' (", ", at (987.9",
+               "curve 1, segments 15 to 23 of 'basin'"), omits=("segments 0 to",)),
+
+    Case("a boundary finer than the spacing", {"a.poly": poly((0.5, 0), (0.5 + 2e-7, 0))},
+         "--domain a.poly --spacing 1000", code=BAD_INPUT,
+         says=("the boundary is far finer than the spacing", "such as segment 1 at (0.5, 0)")),
+
+    # ------------------------------------------------ triangles that cross
+    *[Case(f"solids that overlap, {form}", {f"a.{form}": solids(form)},
+           f"--domain a.{form} --spacing 0.3", code=BAD_INPUT,
+           says=(" of surface 0 'housing' and triangle ", " of surface 0 'shaft' cross at (",
+                 "\ntriangle ", "\nand 7 more such pairs"), omits=("; triangle",))
+      for form in ("stl", "obj")],
+]
+
+if __name__ == "__main__":
+    run(CASES)
