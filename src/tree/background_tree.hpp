@@ -181,7 +181,6 @@ class BackgroundTree {
     visit_cell(cell_around(box), box, enter, visit);
   }
 
- private:
   // Returns the smallest cell that contains the box with a margin. No cell outside it intersects
   // the box.
   std::int32_t cell_around(const Box<Dim>& box) const {
@@ -193,6 +192,7 @@ class BackgroundTree {
     return cell_at(box.low, kMaxDepth - static_cast<int>(std::bit_width(differing)));
   }
 
+ private:
   void add_children(std::int32_t c) {
     require_fits_rank(std::ssize(cells_) + kChildren, "cells of the background tree");
     cells_[static_cast<std::size_t>(c)].first_child = cell_count();

@@ -61,7 +61,9 @@ class LeafGraph {
 
  private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-  Box<Dim> box(std::int32_t leaf) const { return tree_.cell_box(tree_.leaf_cell(leaf)); }
+  template <class Enter, class Visit>
+  void search_cell(std::int32_t c, std::int32_t leaf, const Box<Dim>& own, const Enter& enter,
+                   const Visit& visit) const;
   bool linked(std::int32_t a, std::int32_t b, double squared_gap) const;
   const std::int32_t* store_row(std::int32_t leaf) const;
 
@@ -101,14 +103,25 @@ template <int Dim>
 template <class Enter, class Visit>
 void LeafGraph<Dim>::search_neighbours(std::int32_t leaf, const Enter& enter,
                                        const Visit& visit) const {
-  const Box<Dim> own = box(leaf);
-  const auto in_reach = [&](std::int32_t cell) {
-    const double max = std::max(reach(leaf), max_reach_[index(cell)]);
-    return enter(cell) && squared_gap<Dim>(own, tree_.cell_box(cell)) <= max * max;
-  };
-  tree_.for_leaves_in(widened(own, max_reach_[0]), in_reach, [&](std::int32_t other) {
-    if (linked(leaf, other, squared_gap<Dim>(own, box(other)))) visit(other);
-  });
+  const Box<Dim> own = tree_.cell_box(tree_.leaf_cell(leaf));
+  search_cell(tree_.cell_around(widened(own, max_reach_[0])), leaf, own, enter, visit);
+}
+
+template <int Dim>
+template <class Enter, class Visit>
+void LeafGraph<Dim>::search_cell(std::int32_t c, std::int32_t leaf, const Box<Dim>& own,
+                                 const Enter& enter, const Visit& visit) const {
+  if (!enter(c)) return;
+  const double max = std::max(reach(leaf), max_reach_[index(c)]);
+  const double gap = squared_gap<Dim>(own, tree_.cell_box(c));
+  if (gap > max * max) return;
+  const typename BackgroundTree<Dim>::Cell& cell = tree_.cell(c);
+  if (cell.first_child < 0) {
+    if (linked(leaf, cell.leaf, gap)) visit(cell.leaf);
+    return;
+  }
+  for (int k = 0; k < BackgroundTree<Dim>::kChildren; ++k)
+    search_cell(cell.first_child + k, leaf, own, enter, visit);
 }
 
 // If several threads need the same row, they compute the same entries, and the first row is kept.
