@@ -121,6 +121,7 @@ module pnpbs
     procedure :: read_poly => domain_read_poly
     procedure :: parse_poly => domain_parse_poly
     procedure :: set_corner_angle => domain_set_corner_angle
+    procedure :: set_snap => domain_set_snap
     procedure :: simplify => domain_simplify
     procedure :: simplify_by_file => domain_simplify_by_file
     procedure :: add_offset => domain_add_offset
@@ -1221,6 +1222,20 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     call conclude('domain%set_corner_angle', c_domain_set_corner_angle(self%c, corner_angle), stat, &
                   errmsg)
+  end subroutine
+
+  !> Sets the largest distance over which loose points of a domain in the plane are moved onto a
+  !> curve or vertex that they miss: ends of open curves, ends of segments that join no other one,
+  !> and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of its
+  !> bounding box. check moves them, with a warning; set it before. On a sphere none are moved.
+  !> Local.
+  !>   length  0: none are moved
+  subroutine domain_set_snap(self, length, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: length
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_snap', c_domain_set_snap(self%c, length), stat, errmsg)
   end subroutine
 
   !> Removes features smaller than d, such as those of coastlines, from the graphs and polylines of

@@ -56,9 +56,10 @@ module pnpbs_c
   !> triangles outside of the domain are left out (their names). UNUSED_VERTICES: vertices are in no
   !> segment (vertices). REGION_POINTS: region points have no effect (points). SIMPLIFIED: vertices
   !> were left out (vertices). REPAIRED: the body was repaired (triangles, resolution), or 0
-  !> triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area, or are given twice (triangles).
-  !> TRIANGLES_TURNED: to agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were
-  !> closer than the tolerance (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
+  !> triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area, are given twice, or follow
+  !> those that a binary STL announces (triangles). TRIANGLES_TURNED: to agree with neighbours, or
+  !> outwards (triangles). VERTICES_MERGED: they were closer than the tolerance to others, or in the
+  !> plane to a curve (vertices, tolerance). SURFACES_TOUCH: in single vertices (vertices).
   !> PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness). EDGES_ROUNDED: edges of
   !> a level set are rounded by the resolution (triangle edges). CREASES_IGNORED: short creases are
   !> no features (edges). FEATURE_ANGLE: the smallest holds for all surfaces (-, degrees).
@@ -664,6 +665,14 @@ module pnpbs_c
       type(c_ptr), value :: domain
       real(c_double), value :: corner_angle
       integer(c_int) :: c_domain_set_corner_angle
+    end function
+
+    function c_domain_set_snap(domain, length) bind(C, name="pnpbs_domain_set_snap")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), value :: length
+      integer(c_int) :: c_domain_set_snap
     end function
 
     function c_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) &

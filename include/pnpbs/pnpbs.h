@@ -556,6 +556,14 @@ typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordi
  *  @param[in] corner_angle  degrees, 0 .. 180. 0, the default: every vertex becomes a node */
 PNPBS_API pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 
+/** Sets the largest distance over which loose points of a domain in the plane are moved onto a
+ *  curve or vertex that they miss: ends of open curves, ends of segments that join no other one,
+ *  and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of its
+ *  bounding box. pnpbs_domain_check moves them, with PNPBS_WARNING_VERTICES_MERGED; set it before.
+ *  On a sphere none are moved. Local.
+ *  @param[in] length  0: none are moved */
+PNPBS_API pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length);
+
 /** Removes features finer than d, such as those of coastlines, from a domain in the plane. From the
  *  graphs and polylines added so far, it removes vertices next to segments shorter than d, as long
  *  as the curve then passes them within tolerance * d, and closed curves, islands and lakes, whose
@@ -615,8 +623,9 @@ PNPBS_API pnpbs_status pnpbs_domain_add_offset(pnpbs_domain domain, pnpbs_domain
 
 /** Checks the whole geometry: duplicate vertices, self-intersections, boundary curves or surfaces
  *  that do not close, hole points outside or on one, fixed nodes outside or too close. Placements
- *  check it, too; checking early adds no cost. Local. Errors: PNPBS_ERROR_DOMAIN naming the vertex,
- *  segment or triangle. */
+ *  check it, too; checking early adds no cost. In the plane, loose points that miss a curve by
+ *  very little are moved onto it before (pnpbs_domain_set_snap). Local. Errors: PNPBS_ERROR_DOMAIN
+ *  naming the vertex, segment or triangle. */
 PNPBS_API pnpbs_status pnpbs_domain_check(pnpbs_domain domain);
 
 /** Returns the bounding box of the curves or surfaces. Local.
@@ -1262,14 +1271,15 @@ PNPBS_API pnpbs_status pnpbs_placement_get_warning(pnpbs_placement placement, in
  *  LEFT_OUT_OUTSIDE: curves or triangles outside of the domain are left out (their names).
  *  UNUSED_VERTICES: vertices are in no segment (vertices). REGION_POINTS: region points have no
  *  effect (points). SIMPLIFIED: vertices were left out (vertices). REPAIRED: the body was repaired
- *  (triangles, resolution), or 0 triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area, or
- *  are given twice (triangles). TRIANGLES_TURNED: to agree with neighbours, or outwards
- *  (triangles). VERTICES_MERGED: they were closer than the tolerance (vertices, tolerance).
- *  SURFACES_TOUCH: in single vertices (vertices). PIECES_LEFT_OUT: parts of a body are too thin
- *  (parts, mean thickness). EDGES_ROUNDED: edges of a level set are rounded by the resolution
- *  (triangle edges). CREASES_IGNORED: short creases are no features (edges). FEATURE_ANGLE: the
- *  smallest holds for all surfaces (-, degrees). CURVED_ELEMENTS: elements of a file are treated as
- *  straight (elements). GROUPS: entities of a file are in several groups (entities). */
+ *  (triangles, resolution), or 0 triangles: it was sound. TRIANGLES_LEFT_OUT: they have no area,
+ *  are given twice, or follow those that a binary STL announces (triangles). TRIANGLES_TURNED: to
+ *  agree with neighbours, or outwards (triangles). VERTICES_MERGED: they were closer than the
+ *  tolerance to others, or in the plane to a curve (vertices, tolerance). SURFACES_TOUCH: in single
+ *  vertices (vertices). PIECES_LEFT_OUT: parts of a body are too thin (parts, mean thickness).
+ *  EDGES_ROUNDED: edges of a level set are rounded by the resolution (triangle edges).
+ *  CREASES_IGNORED: short creases are no features (edges). FEATURE_ANGLE: the smallest holds for
+ *  all surfaces (-, degrees). CURVED_ELEMENTS: elements of a file are treated as straight
+ *  (elements). GROUPS: entities of a file are in several groups (entities). */
 #define PNPBS_WARNING_UNKNOWN 0
 #define PNPBS_WARNING_LEFT_OUT_OUTSIDE 101
 #define PNPBS_WARNING_UNUSED_VERTICES 102

@@ -23,6 +23,10 @@ pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_an
   return change_plane(domain, [&](PlaneDomain& plane) { plane.set_corner_angle(corner_angle); });
 }
 
+pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length) {
+  return change_plane(domain, [&](PlaneDomain& plane) { plane.set_snap(length); });
+}
+
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void* user,
                                    double tolerance, double smallest, int64_t* vertices,
                                    int64_t* curves) {

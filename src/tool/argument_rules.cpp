@@ -165,6 +165,10 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
   if (dimension == 3 && arguments.corner_angle)
     refuse(
         "--corner-angle is for domains in the plane, and this one is a body: use --feature-angle");
+  if (dimension == 3 && arguments.snap)
+    refuse("--snap is for domains in the plane, and this one is a body");
+  if (arguments.sphere && arguments.snap)
+    refuse("--snap is for domains in the plane, and this one is on a sphere");
   if (dimension == 3 && arguments.simplify)
     refuse("--simplify is for domains in the plane, and this one is a body");
   if (arguments.surfaces_only && !arguments.cut.empty())

@@ -270,6 +270,19 @@ void add_curves(CLI::App& app, Arguments& arguments) {
       ->type_name("DEGREES")
       ->group(group);
   app.add_option_function<std::string>(
+         "--snap",
+         [&arguments](const std::string& text) {
+           const auto numbers = numbers_between_commas(text);
+           if (!numbers || numbers->size() != 1 || numbers->front() < 0)
+             refuse("--snap: expected a length or 0, found '" + text + "'");
+           arguments.snap = numbers->front();
+         },
+         "in the plane: move ends of curves, and fixed nodes, onto a curve\n"
+         "or vertex that they miss by this length or less; default: 1e-7\n"
+         "of the size of the domain; 0: move none")
+      ->type_name("LENGTH")
+      ->group(group);
+  app.add_option_function<std::string>(
          "--simplify", [&arguments](const std::string& text) { take_simplify(text, arguments); },
          "in the plane: remove vertices closer together than d, within\n"
          "TOLERANCE times d of the boundary, and islands and lakes with an\n"

@@ -51,6 +51,7 @@ struct Arguments {
   std::vector<std::pair<std::string, std::string>> options;  // key and value for the library
   std::optional<double> feature_angle;                       // of surfaces, in degrees
   std::optional<double> corner_angle;                        // of curves, in degrees
+  std::optional<double> snap;  // distance over which loose points are moved onto curves
   // Tolerance of the simplification, over d.
   std::optional<double> simplify;
   // Extent below which curves are left out, over d.

@@ -166,6 +166,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       sphere_(arguments.sphere),
       feature_angle_(arguments.feature_angle.value_or(default_feature_angle)),
       corner_angle_(arguments.corner_angle.value_or(0)),
+      snap_(arguments.snap),
       filled_(!arguments.surfaces_only),
       repair_(arguments.repair),
       resurface_(arguments.resurface),
@@ -198,6 +199,7 @@ void DomainSource::read(pnpbs_domain domain, pnpbs_context context, const Ranks&
     name_groups(domain, context);
     add_regions(domain, context);
     if (dimension_ == 2) check(pnpbs_domain_set_corner_angle(domain, corner_angle_), context);
+    if (snap_) check(pnpbs_domain_set_snap(domain, *snap_), context);
     check_domain(domain, context, ranks.is_first() && !quiet_);
   });
 }

@@ -84,7 +84,8 @@ class DomainSource {
   std::optional<SphereRequest> sphere_;
   int dimension_ = 2;
   double feature_angle_;
-  double corner_angle_;  // in the plane
+  double corner_angle_;         // in the plane
+  std::optional<double> snap_;  // likewise
   bool filled_;
   std::optional<double> repair_, resurface_;  // their resolutions
   bool repair_if_needed_, quiet_;

@@ -703,6 +703,39 @@ START_TEST(a_shore_finer_than_d) {
 }
 END_TEST
 
+/* Ends of curves and fixed nodes are moved onto the boundary over the distance that was set. */
+START_TEST(loose_points) {
+  const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1}, crack[4] = {0.5, 0.5, 0.5, 0.01},
+               fixed[2] = {0.99, 0.99};
+  const double lengths[] = {0, 1e-3, 0.02};
+  int k;
+  for (k = 0; k < 3; ++k) {
+    int32_t code = 0, count = 0, w;
+    int64_t moved = 0;
+    double value = 0, point[3];
+    job it = job_begin();
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_set_snap(it.domain, -1), "length", "-1");
+    MUST(pnpbs_domain_set_snap(it.domain, lengths[k]));
+    MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 4, square, NULL, 0));
+    MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, crack, NULL, 0));
+    MUST(pnpbs_domain_add_fixed_nodes(it.domain, 1, fixed, NULL));
+    run(&it, 0.1);
+    MUST(pnpbs_placement_warning_count(it.placement, &count));
+    for (w = 0; w < count && code != PNPBS_WARNING_VERTICES_MERGED; ++w)
+      MUST(pnpbs_placement_get_warning_data(it.placement, w, &code, &moved, &value, point));
+    ck_assert_int_eq(code == PNPBS_WARNING_VERTICES_MERGED, k == 2);
+    if (k == 2) {
+      result nodes = result_of(it.placement);
+      check_result(&nodes, 1);
+      result_free(&nodes);
+      ck_assert_int_eq(moved, 2);
+      ck_assert_double_eq(value, lengths[k]);
+    }
+    job_end(&it);
+  }
+}
+END_TEST
+
 /* Between corners, nodes on a graph are spaced by d, however fine the graph is. */
 START_TEST(a_graph_that_is_a_circle) {
   double xy[2 * 720];
@@ -801,6 +834,7 @@ TEST_SUITE(test_boundary) {
   tcase_add_test(cases, segments_show_the_domain);
   tcase_add_test(cases, a_lake);
   tcase_add_test(cases, a_shore_finer_than_d);
+  tcase_add_test(cases, loose_points);
   tcase_add_test(cases, a_graph_that_is_a_circle);
   tcase_add_test(cases, the_first_row_fits);
   tcase_add_test(cases, no_first_row_without_sweeps);

@@ -79,6 +79,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
   X(domain_set_corner_angle, (handle, 30.0))                                          \
+  X(domain_set_snap, (handle, 1e-3))                                                  \
   X(domain_simplify, (handle, cone_spacing, &a_cone, 0.25, 2.0, NULL, NULL))          \
   X(domain_simplify_by_file, (handle, "/nowhere/d.csv", NULL, 0.25, 2.0, NULL, NULL)) \
   X(domain_add_level_set, (handle, volume_ring_at, NULL, xyz, xyz + 3, 0.5, 1))       \

@@ -219,6 +219,9 @@ contains
     call expect(abs(area(domain) - 0.99d0) < 1d-14, 'with its hole')
     call domain%set_corner_angle(200d0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
+    call domain%set_snap(1d-3)
+    call domain%set_snap(-1d0, stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'length') > 0, 'a negative length')
     even%finest = 0.3d0
     even%growth = 0
     call domain%simplify_by_file('nowhere.csv', 0.25d0, 2d0, stat=stat, errmsg=errmsg)

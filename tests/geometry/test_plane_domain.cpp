@@ -390,6 +390,100 @@ START_TEST(curve_ends_join_within_tolerance) {
 }
 END_TEST
 
+namespace {
+
+// Checks a domain in which `count` points are moved, and returns its only warning.
+const pnpbs::Warning& warning_of_moved(PlaneDomain& domain, int count, double tolerance) {
+  domain.check();
+  ck_assert_uint_eq(domain.warnings().size(), 1);
+  const pnpbs::Warning& warning = domain.warnings()[0];
+  ck_assert(warning.code == pnpbs::WarningCode::vertices_merged);
+  ck_assert_int_eq(warning.count, count);
+  ck_assert_double_eq_tol(warning.value, tolerance, 1e-6 * tolerance);
+  return warning;
+}
+
+bool has_corner_at(const PlaneDomain& domain, const pnpbs::Point<2>& x) {
+  return std::ranges::any_of(domain.corners(),
+                             [&](const pnpbs::Corner& corner) { return corner.position == x; });
+}
+
+}  // namespace
+
+START_TEST(loose_ends_are_moved_onto_curves) {
+  PlaneDomain domain;
+  add_loop(domain, rectangle(0, 0, 1, 1));
+  add_chain(domain, {3e-8, 0.5, 0.5, 0.5, 1 + 4e-8, 0.75});  // from side to side
+  add_chain(domain, {0.25, 0.5 + 2e-8, 0.25, 1 - 5e-9});     // from that curve to a side
+  add_chain(domain, {0.5, 0.5 - 1e-8, 0.75, 0.25});          // from its vertex to the inside
+  const pnpbs::Warning& warning = warning_of_moved(domain, 5, 1e-7);
+  ck_assert(warning.point()->x[0] == 3e-8);
+  expect_area(domain, 1);
+  for (const pnpbs::Point<2>& x : {pnpbs::Point<2>{0, 0.5}, {1, 0.75}, {0.25, 1}, {0.5, 0.5}})
+    ck_assert(has_corner_at(domain, x));
+  ck_assert_int_eq(corners(domain), 4 + 3 + 2 + 1);
+  ck_assert_int_eq(inner_curves(domain), 3 + 1 + 1);
+  domain.check();
+  add_chain(domain, {0.75, 0.25, 0.75, 0.125});  // the warning remains after another check
+  warning_of_moved(domain, 5, 1e-7);
+}
+END_TEST
+
+START_TEST(loose_ends_are_moved_onto_smooth_curves) {
+  PlaneDomain domain;
+  add_circle(domain, 0, 0, 2);
+  add_chain(domain, {0, 0, 2 * std::cos(1) - 1e-8, 2 * std::sin(1)});
+  domain.add_arc(pnpbs::CurveRole::inner, {0, 0}, 1, 1.5 + 1e-8, 3, 1);
+  add_chain(domain, {std::cos(1.5), std::sin(1.5), 0.5, 1.5});
+  warning_of_moved(domain, 2, 4e-7);
+  ck_assert_int_eq(corners(domain), 1 + 2 + 2 + 1);
+}
+END_TEST
+
+START_TEST(fixed_nodes_are_moved_onto_curves) {
+  PlaneDomain domain;
+  add_loop(domain, rectangle(0, 0, 10, 10));
+  const double xy[] = {2e-11, 0, 5, 5e-7, 10 + 1e-8, 10 - 1e-8, 5, 5};
+  const std::int32_t tags[] = {2, 3, 4, 5};
+  domain.add_fixed_nodes(4, xy, tags);
+  warning_of_moved(domain, 3, 1e-6);
+  ck_assert_int_eq(corners(domain), 5);
+  ck_assert(has_corner_at(domain, {0, 0}));
+  ck_assert(has_corner_at(domain, {5, 0}));
+  ck_assert(has_corner_at(domain, {10, 10}));
+  ck_assert_int_eq(domain.corners()[0].tag, 2);
+  ck_assert_uint_eq(domain.fixed_nodes().size(), 1);
+}
+END_TEST
+
+START_TEST(dangling_vertices_are_moved_onto_vertices_and_segments) {
+  Graph graph = square_graph();
+  const std::int64_t inside = graph.vertex(0.5, 0.5), beside_vertex = graph.vertex(1 - 1e-8, 1);
+  graph.segment(inside, beside_vertex);
+  graph.segment(inside, graph.vertex(1e-8, 0.25));
+  graph.vertex(0.5 + 1e-8, 0.5);  // in no segment
+  PlaneDomain domain;
+  graph.add_to(domain);
+  warning_of_moved(domain, 3, 1e-7);
+  ck_assert_int_eq(corners(domain), 4 + 2);
+  ck_assert_uint_eq(domain.fixed_nodes().size(), 0);
+  expect_area(domain, 1);
+}
+END_TEST
+
+START_TEST(points_that_are_apart_stay) {
+  PlaneDomain domain;
+  add_loop(domain, rectangle(0, 0, 1, 1));
+  add_chain(domain, {2e-7, 0.5, 0.5, 0.5});
+  add_chain(domain, {0.5, 0.25, 0.5 + 1e-8, 0.25});  // as short as the distance itself
+  const double xy[] = {0.75, 2e-7};
+  domain.add_fixed_nodes(1, xy, nullptr);
+  domain.check();
+  ck_assert(domain.warnings().empty());
+  ck_assert_int_eq(corners(domain), 8);
+}
+END_TEST
+
 // ---------------------------------------------------------------- arcs and general curves
 
 START_TEST(full_circle) {
@@ -935,6 +1029,11 @@ TEST_SUITE(test_plane_domain) {
                                     t_junctions,
                                     t_junction_within_tolerance,
                                     curve_ends_join_within_tolerance,
+                                    loose_ends_are_moved_onto_curves,
+                                    loose_ends_are_moved_onto_smooth_curves,
+                                    fixed_nodes_are_moved_onto_curves,
+                                    dangling_vertices_are_moved_onto_vertices_and_segments,
+                                    points_that_are_apart_stay,
                                     full_circle,
                                     ring_of_clockwise_and_counter_clockwise_arcs,
                                     narrow_ring_is_refined,

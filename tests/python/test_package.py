@@ -398,6 +398,7 @@ class Domains(Case):
             self.assert_status(Status.ERROR_FILE, graph().simplify_by_file, path, "e")
         self.assert_status(Status.ERROR_ARGUMENT, domain.simplify, 0.2, -1)
         self.assert_status(Status.ERROR_ARGUMENT, domain.set_corner_angle, 200)
+        self.assert_status(Status.ERROR_ARGUMENT, domain.set_snap, -1)
         with self.assertRaises(ZeroDivisionError):
             domain.simplify(lambda x: 1 / 0)
 

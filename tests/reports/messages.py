@@ -69,6 +69,8 @@ nodata_value -9999
 """
 IN_PLANE = "--projection none --spacing 100"
 GEO = {"code": BAD_INPUT, "needs_gdal": True}
+SOUND = {"quality.min_angle": (25, 60)}
+MOVED = ("warning: moved onto curves that they miss by less than 1e-07: ",)
 
 CASES = [
     # ------------------------------------------------ curves that cross
@@ -126,6 +128,14 @@ CASES = [
          says=("beside curve 0, segments 1191 to 1230 of 'basin' (", ", at (987.9",
                "curve 1, segments 15 to 23 of 'basin'"), omits=("segments 0 to",)),
 
+    # ------------------------------------------------ points that miss a curve by a little
+    Case("a fixed node beside a corner", {"a.poly": poly((2e-12, 0))},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND,
+         says=("vertex 5 (2e-12, 0) to vertex 1",), omits=("finer",)),
+    Case("a fixed node inside beside a corner", {"a.poly": poly((1e-9, 1e-9))},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND, says=MOVED),
+    Case("a fixed node beside a side", {"a.poly": poly((0.5, 3e-8))},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND, says=MOVED),
     Case("a boundary finer than the spacing", {"a.poly": poly((0.5, 0), (0.5 + 2e-7, 0))},
          "--domain a.poly --spacing 1000", code=BAD_INPUT,
          says=("the boundary is far finer than the spacing", "such as segment 1 at (0.5, 0)")),
@@ -136,6 +146,49 @@ CASES = [
            says=(" of surface 0 'housing' and triangle ", " of surface 0 'shaft' cross at (",
                  "\ntriangle ", "\nand 7 more such pairs"), omits=("; triangle",))
       for form in ("stl", "obj")],
+]
+
+# A fracture that ends just short of a side, or just beyond it.
+for gap in (1e-9, 5e-8, -1e-9):
+    CASES.append(Case(f"a fracture that ends {gap} before a side",
+                      {"a.poly": poly((0.3, 0.4), (1 - gap, 0.5), segments=[(5, 6)])},
+                      "--domain a.poly --spacing 0.1 --check", figures=SOUND,
+                      says=(*MOVED, "to segment 2"), omits=("larger than features",)))
+CASES += [
+    Case("a fracture that ends a millionth before a side",
+         {"a.poly": poly((0.3, 0.4), (1 - 1e-6, 0.5), segments=[(5, 6)])},
+         "--domain a.poly --spacing 0.1", says=("larger than features", "at (0.999999, 0.5)")),
+    Case("a fracture that ends before another one",
+         {"a.poly": poly((0.3, 0.2), (0.3, 0.8), (0.3 + 1e-8, 0.5), (0.7, 0.5),
+                         segments=[(5, 6), (7, 8)])},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND, says=(*MOVED, "to segment 5")),
+    Case("fractures that end beside each other and a side",
+         {"a.poly": poly((0.3, 0.2), (1 - 1e-8, 0.5), (0.3, 0.8), (1 - 2e-8, 0.5 + 3e-8),
+                         segments=[(5, 6), (7, 8)])},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND, says=MOVED),
+    Case("a fracture that ends beside a corner",
+         {"a.poly": poly((0.3, 0.4), (1 - 1e-8, 1 - 1e-8), segments=[(5, 6)])},
+         "--domain a.poly --spacing 0.1 --check", figures=SOUND, says=(*MOVED, "to vertex 3")),
+    Case("lines that end before the outline of a polygon",
+         {"a.geojson": features(polygon("block", SQUARE),
+                                ("LineString", [[1e-5, 300], [500, 400], [1000 - 2e-5, 700]], "fault"))},
+         "--domain a.geojson --check " + IN_PLANE, needs_gdal=True, figures=SOUND,
+         says=("warning: moved onto curves that they miss by less than 0.0001: ",)),
+]
+
+# The distance can be set, or nothing be moved.
+WIDE_GAP = {"a.poly": poly((0.3, 0.4), (1 - 1e-3, 0.5), segments=[(5, 6)])}
+CASES += [
+    Case("a wide gap that is closed", WIDE_GAP, "--domain a.poly --spacing 0.1 --check --snap 0.002",
+         figures=SOUND, says=("that they miss by less than 0.002: vertex 6",)),
+    Case("a wide gap that stays", WIDE_GAP, "--domain a.poly --spacing 0.1 --check --snap 1e-4",
+         says=("larger than features",), omits=("moved",)),
+    Case("nothing is moved", {"a.poly": poly((0.3, 0.4), (1 - 1e-9, 0.5), segments=[(5, 6)])},
+         "--domain a.poly --spacing 0.1 --snap 0", says=("larger than features",), omits=("moved",)),
+    Case("a length that is none", WIDE_GAP, "--domain a.poly --spacing 0.1 --snap -1", code=BAD_INPUT,
+         says=("--snap: expected a length or 0, found '-1'",)),
+    Case("bodies have no such length", {}, "--domain 'box(0,0,0, 1,1,1)' --spacing 0.5 --snap 1e-3",
+         code=BAD_INPUT, says=("--snap is for domains in the plane",)),
 ]
 
 if __name__ == "__main__":

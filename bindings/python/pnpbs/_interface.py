@@ -95,6 +95,7 @@ pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int64_t length,
     const char *name);
 pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
+pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length);
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void *user,
     double tolerance, double smallest, int64_t *vertices, int64_t *curves);
 pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char *path,

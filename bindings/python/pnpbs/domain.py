@@ -385,6 +385,14 @@ class Domain(Handle):
         default, every vertex becomes a node."""
         return self._call("set_corner_angle", corner_angle)
 
+    def set_snap(self, length: float) -> Domain:
+        """Sets the largest distance over which loose points of a domain in the plane are moved onto
+        a curve or vertex that they miss: ends of open curves, ends of segments that join no other
+        one, and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of
+        its bounding box. `check` moves them, with a warning; set it before. With 0, none are moved.
+        On a sphere none are moved."""
+        return self._call("set_snap", length)
+
     def simplify(self, d: Union[float, ArrayFunction], tolerance: float = 0.25,
                  smallest: float = 0.0) -> LeftOut:
         """Removes features smaller than d, such as those of coastlines, from the graphs and

@@ -47,6 +47,8 @@ struct CurveSource {
   std::vector<std::array<std::int64_t, 2>> segment_ends;  // graphs: indices into `points`
   std::vector<char> corners;      // graphs: per point; if empty, all are corners
   std::int64_t first_number = 0;  // graphs: the user's number of vertex 0
+  // Graphs: nonzero for points that were moved onto a vertex (snapping.hpp). Empty if none were.
+  std::vector<char> snapped;
 
   // Original numbers of points and segments as the user gave them. If empty, indices are the
   // original numbers.

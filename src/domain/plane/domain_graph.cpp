@@ -123,12 +123,17 @@ class Joiner {
     const bool both_fixed = first.fixed >= 0 && second.fixed >= 0;
     const bool same_graph = first.source == second.source && first.source >= 0 &&
                             sources_[first.source].kind == Kind::graph;
-    if (!both_fixed && !same_graph) return;
+    if (!both_fixed && (!same_graph || is_snapped(first) || is_snapped(second))) return;
     const MessageText where = positions_[a] == positions_[b]
                                   ? " are both at " + point_text(positions_[a])
                                   : " are too close, at " + point_text(positions_[a]) + " and " +
                                         point_text(positions_[b]);
     reject_domain(point_name(a) + " and " + point_name(b) + where);
+  }
+
+  bool is_snapped(const GivenPoint& given) const {
+    const std::vector<char>& snapped = sources_[given.source].snapped;
+    return !snapped.empty() && snapped[given.index];
   }
 
   std::string point_name(std::int32_t point) const {

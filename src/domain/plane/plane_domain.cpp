@@ -17,6 +17,7 @@
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/simplify.hpp"
+#include "domain/plane/snapping.hpp"
 #include "sphere/area_in_chart.hpp"
 #include "sphere/degrees.hpp"
 #include "sphere/great_circle.hpp"
@@ -251,6 +252,13 @@ void PlaneDomain::set_corner_angle(double corner_angle) {
   checked_ = false;
 }
 
+void PlaneDomain::set_snap(double length) {
+  require_not_negative("length", length);
+  if (embedding_.is_sphere()) reject("on a sphere no points are moved onto curves");
+  snap_ = length;
+  checked_ = false;
+}
+
 LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
   require_not_negative("tolerance", rule.tolerance);
   require_not_negative("smallest", rule.smallest);
@@ -327,6 +335,9 @@ void PlaneDomain::check() {
   if (is_whole_sphere() && !closing_) return check_open_sphere();
   for (CurveSource& source : sources_)
     if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
+  if (!embedding_.is_sphere())  // the scale of a chart varies
+    if (auto warning = snap_loose_points(sources_, given_nodes_, snap_))
+      add_warning(std::move(*warning));
   resolved_ = resolve_domain(sources_, region_points_, given_nodes_);
   if (closing_) follow_patch();
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),

@@ -151,6 +151,8 @@ class PlaneDomain : public DomainBase<2> {
                 std::int64_t first_number = 0);
   // Sets the angle at which vertices of graphs are corners. [degrees]
   void set_corner_angle(double corner_angle);
+  // Sets the distance up to which loose points are moved onto curves (plane/snapping.hpp).
+  void set_snap(double length);
   // Removes details finer than d from what was given until now (plane/simplify.hpp). Leaves the
   // domain unchanged if it throws.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
@@ -190,7 +192,8 @@ class PlaneDomain : public DomainBase<2> {
   // On a closed sphere, the number of sources and nodes that the user gave.
   std::size_t open_sources_ = 0, open_nodes_ = 0;
   std::vector<CurveSource> sources_;
-  double corner_angle_ = 0;  // of graphs
+  double corner_angle_ = 0;     // of graphs
+  std::optional<double> snap_;  // the default is kSnap
   std::int64_t curves_given_ = 0, graphs_given_ = 0;
   ResolvedDomain resolved_;
 };

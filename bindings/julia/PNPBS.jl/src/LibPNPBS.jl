@@ -298,6 +298,10 @@ pnpbs_domain_set_corner_angle(domain, corner_angle) =
     @ccall $(symbol(:pnpbs_domain_set_corner_angle))(
         domain::pnpbs_domain, corner_angle::Cdouble)::pnpbs_status
 
+pnpbs_domain_set_snap(domain, length) =
+    @ccall $(symbol(:pnpbs_domain_set_snap))(
+        domain::pnpbs_domain, length::Cdouble)::pnpbs_status
+
 pnpbs_domain_simplify(domain, spacing, user, tolerance, smallest, vertices, curves) =
     @ccall $(symbol(:pnpbs_domain_simplify))(
         domain::pnpbs_domain, spacing::pnpbs_spacing_fn, user::Ptr{Cvoid}, tolerance::Cdouble,

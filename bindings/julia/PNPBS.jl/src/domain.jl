@@ -459,6 +459,20 @@ function set_corner_angle!(domain::Domain, corner_angle::Real)
 end
 
 """
+    set_snap!(domain, length)
+
+Sets the largest distance over which loose points of a domain in the plane are moved onto a curve or
+vertex that they miss: ends of open curves, ends of segments that join no other one, and fixed
+nodes. By default it is 1e-7 of the size of the domain, the longest side of its bounding box. The
+check of the domain moves them, with a warning; set it before. With 0, none are moved. On a sphere
+none are moved.
+"""
+function set_snap!(domain::Domain, length::Real)
+    check(domain.context, LibPNPBS.pnpbs_domain_set_snap(live(domain), length))
+    return domain
+end
+
+"""
     simplify!(d, domain; tolerance = 0.25, smallest = 0, per_point = false) -> (vertices, curves)
 
 Removes features smaller than d, such as those of coastlines, from the graphs and polylines of a

@@ -93,6 +93,10 @@ end
         @test_throws DomainError simplify!(x -> throw(DomainError(1)), domain)
         @test fails(() -> simplify!(0.2, domain; tolerance = -1), :error_argument, "tolerance")
         @test fails(() -> set_corner_angle!(domain, 200), :error_argument, "corner_angle")
+        @test fails(() -> set_snap!(domain, -1), :error_argument, "length")
+        # A fixed node beside the circle becomes one of its boundary nodes.
+        near = set_snap!(add_fixed_nodes!(graph(0), [0.99; 0;;]), 0.02)
+        @test boundary_nodes(near) == 404
     end
 end
 
