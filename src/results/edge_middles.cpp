@@ -68,8 +68,7 @@ NearestPoint<3> nearest_of(const LevelGeometry<3>& geometry,
   return nearest;
 }
 
-}  // namespace
-
+// Returns the boundary edge between two nodes of the plane, or null if there is none.
 const BoundaryEdge* boundary_edge_between(const Level<2>& level,
                                           const std::array<std::int64_t, 2>& nodes) {
   const std::int32_t a = level.nodes.boundary_node(nodes[0]);
@@ -81,6 +80,8 @@ const BoundaryEdge* boundary_edge_between(const Level<2>& level,
       return &level.geometry.boundary().facets[static_cast<std::size_t>(sectors.edge(k).edge)];
   return nullptr;
 }
+
+}  // namespace
 
 void move_to_boundary(const Level<2>& level, std::span<EdgeMiddle<2>> edges) {
   const Boundary& boundary = level.geometry.boundary();

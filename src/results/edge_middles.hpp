@@ -26,8 +26,4 @@ struct EdgeMiddle {
 void move_to_boundary(const Level<2>& level, std::span<EdgeMiddle<2>> edges);
 void move_to_boundary(const Level<3>& level, std::span<EdgeMiddle<3>> edges);
 
-// Returns the boundary edge between two nodes of the plane, or null if there is none.
-const BoundaryEdge* boundary_edge_between(const Level<2>& level,
-                                          const std::array<std::int64_t, 2>& nodes);
-
 }  // namespace pnpbs

@@ -41,7 +41,7 @@ std::int64_t MidNodes::between(std::int64_t a, std::int64_t b) const {
 }
 
 // Makes the mid nodes in steps. The edges are distributed over the ranks by the smaller id of their
-// ends; the rank that an edge is assigned to numbers it and joins what others know of it.
+// ends; the rank that an edge is assigned to numbers it and merges the reports of all ranks.
 template <int Dim>
 class MidNodeMaker {
  public:
@@ -167,8 +167,8 @@ class MidNodeMaker {
     return mine;
   }
 
-  // Numbers the reported edges and joins what is known of each. Keeps which reports belong to the
-  // same edge. Collective.
+  // Numbers the reported edges and merges the reports of each edge. Stores which reports belong to
+  // the same edge. Collective.
   std::vector<Merged> merge(const std::vector<Report>& reports) {
     std::vector<std::size_t> order(reports.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -198,7 +198,7 @@ class MidNodeMaker {
     return merged;
   }
 
-  // The middle of the edge, on a sphere that of the arc.
+  // Returns the middle of the edge, on a sphere that of the arc.
   Point<3> straight_middle(const MidNode& mid) const {
     const Point<3> middle = chord_middle(mid);
     if (!results_.embedding().is_sphere()) return middle;
@@ -230,7 +230,7 @@ class MidNodeMaker {
   std::vector<char> folding_edges() const {
     std::vector<char> folds(mids_.nodes_.size(), 0);
     for_elements([&]<std::size_t n>(std::array<std::int64_t, n> places) {
-      // In the order of ids, so that all ranks round alike.
+      // Corners in the order of ids give the same rounding on any number of ranks.
       std::ranges::sort(places, {}, [&](std::int64_t place) { return id(place); });
       const auto edges = mids_.of(places);
       std::array<Point<3>, n> x;
