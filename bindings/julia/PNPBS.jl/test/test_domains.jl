@@ -95,7 +95,7 @@ end
         @test fails(() -> set_corner_angle!(domain, 200), :error_argument, "corner_angle")
         @test fails(() -> set_snap!(domain, -1), :error_argument, "length")
         # A fixed node beside the circle becomes one of its boundary nodes.
-        near = set_snap!(add_fixed_nodes!(graph(0), [0.99; 0;;]), 0.02)
+        near = set_snap!(add_fixed_nodes!(graph(0), reshape([0.99, 0.0], 2, 1)), 0.02)
         @test boundary_nodes(near) == 404
     end
 end
