@@ -810,6 +810,16 @@ class SecondOrder(Case):
                 with self.assertRaises(ValueError):
                     placement.write(paths[0], order=3)
 
+    def test_sheets_closer_than_the_sagitta(self):
+        """The middles of edges are nearer to the other sphere, but move to their own."""
+        sheets = pnpbs.Domain(self.context, dim=3).set_filled(False)
+        sheets.add_ball((0, 0, 0), 1, tag=1).add_ball((0, 0, 0), 0.985, tag=2)
+        placement = self.place(sheets, 0.4)
+        facets, points = placement.boundary_triangles(order=2), self.points(placement)
+        radii = np.linalg.norm(points[facets.corners], axis=2)
+        np.testing.assert_allclose(radii[facets.tags == 1], 1, atol=1e-4)
+        np.testing.assert_allclose(radii[facets.tags == 2], 0.985, atol=1e-4)
+
     def test_elements_that_would_fold_are_straight(self):
         """A hole that nodes hardly resolve: its edges bulge into the triangles around it."""
         domain = pnpbs.Domain(self.context).add_polyline([(-2, -2), (2, -2), (2, 2), (-2, 2)])
