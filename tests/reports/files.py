@@ -107,6 +107,11 @@ for kind, end in (("LF", "\n"), ("CR LF", "\r\n"), ("CR", "\r")):
                       {"a.poly": SQUARES["square.poly"], "pit.csv": line_ends(PIT, end)},
                       "--domain a.poly --spacing 'hypot(x-0.37,y-0.61)<0.002 ? 0.002 : 0.1'"
                       " --spacing-hints pit.csv", figures={"nodes": (300, 400)}))
+    for length in (254, 255, 256, 600):
+        text = "#" * length + "\n" + SQUARES["square.poly"]
+        CASES.append(Case(f"a line of {length} characters, lines end in {kind}",
+                          {"a.poly": line_ends(text, end)}, "--domain a.poly --spacing 0.2",
+                          figures=COARSE))
     CASES.append(Case(f"the line of an error, lines end in {kind}",
                       {"a.msh": line_ends(SQUARES["square.msh"].replace("4 0 1 0", "4 0 y 0"), end),
                        }, "--domain a.msh --spacing 0.2", code=2, says=("a.msh:16: found 'y'",)))
