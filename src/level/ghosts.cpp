@@ -162,8 +162,8 @@ std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
     }
   });
   agree_on_failure(comm, failure);
-  requests = comm.exchange(neighbours, requests, nullptr);
   failure = failure_of([&] {
+    requests = comm.exchange(neighbours, requests, nullptr);
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       const std::vector<std::int32_t>& sent = halo_.sent_to(neighbours[k]);
       for_records<std::int32_t>({requests[k]}, [&](std::int32_t g) {
@@ -171,7 +171,7 @@ std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
       });
     }
   });
-  answers = comm.exchange(neighbours, answers, failure);
+  collective_try(comm, [&] { answers = comm.exchange(neighbours, answers, failure); });
   for (std::size_t k = 0; k < neighbours.size(); ++k) received[k].bytes.swap(answers[k]);
   return received;
 }
