@@ -42,6 +42,7 @@ void pack_star(const Level<3>& level, std::int32_t i, Bytes& bytes) {
 template <class Visit>
 void for_stars(const std::vector<GhostData>& received, const Visit& visit) {
   for (const GhostData& data : received) {
+    if (data.ghosts.empty()) continue;  // an empty message has no address to copy from
     std::vector<std::int64_t> words(data.bytes.size() / sizeof(std::int64_t));
     std::memcpy(words.data(), data.bytes.data(), data.bytes.size());
     std::size_t at = 0;
