@@ -897,16 +897,16 @@ PNPBS_API pnpbs_status pnpbs_placement_rebalance(pnpbs_placement placement);
  *  are done, and finishes. A later call starts a new schedule from the current nodes. Collective.
  *  Returns PNPBS_OK; PNPBS_NOT_CONVERGED (the best state is kept); PNPBS_SPACING_MISSED, whether or
  *  not the bubbles are at rest, if in one of the bands of pnpbs_placement_get_edge_bands the mean
- *  over 50 edges or more differs from 1 by more than 0.1 and twice its standard error (a warning
- *  names the band), and so does, where 50 edges or more join two nodes inside the domain, the mean
- *  over these (edges through a thin wall are as long as it is thick; edges that end at feature
- * edges and corners of a body do not count); PNPBS_NOT_CONFORMING, whatever else is true, if there
- * are no tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another
- *  Euler characteristic than the domain's, the volume differs from the domain's by more than 0.001
- *  of it and more than boundary faces cut off as chords, or triangles of surfaces alone do not join
- * (a warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before
- * it would return PNPBS_NOT_CONFORMING, it reduces d where elements are missing and continues from
- * its nodes, up to `conforming_rounds` times; a warning reports the cost (statistic
+ *  over 50 edges or more differs from 1 by more than 0.1 (a warning names the band), and so does,
+ *  where 50 edges or more join two nodes inside the domain, the mean over these (edges through a
+ *  thin wall are as long as it is thick; where edges are too long, those at feature edges and
+ * corners of a body do not count); PNPBS_NOT_CONFORMING, whatever else is true, if there are no
+ * tetrahedra, nodes are in none, some have no volume, their boundary is torn or has another Euler
+ * characteristic than the domain's, the volume differs from the domain's by more than 0.001 of it
+ * and more than boundary faces cut off as chords, or triangles of surfaces alone do not join (a
+ * warning says which); PNPBS_STOPPED. The nodes are valid in all these cases. In space, before it
+ * would return PNPBS_NOT_CONFORMING, it reduces d where elements are missing and continues from its
+ * nodes, up to `conforming_rounds` times; a warning reports the cost (statistic
  * `unresolved_places`). It does so also where dihedral angles are smaller than the option
  * `min_angle`. d stays reduced there until another spacing is set. There is also a warning where
  * the boundary of the tetrahedra does not follow the surfaces (statistic `missing_faces`; see the

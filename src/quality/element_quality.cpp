@@ -97,7 +97,6 @@ SpacingBands bands_of_nodes(const Communicator& comm, const MeasuredNodes<Dim>& 
 }
 
 // Returns whether the node is on a feature edge or a corner of a body, or fixed inside it.
-bool is_on_feature(const Nodes<2>&, std::int64_t) { return false; }
 bool is_on_feature(const Nodes<3>& nodes, std::int64_t i) {
   return nodes.moving == Carrier::free &&
          (nodes.carrier(i) == Carrier::curve || nodes.carrier(i) == Carrier::fixed);
@@ -323,7 +322,6 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
                                           const Stars<Dim>& stars, const View<char>& left_out) {
   const Nodes<Dim>& nodes = measured.nodes;
   const auto counts = [&](std::int64_t i, std::int64_t j) {
-    if (is_on_feature(nodes, i) || is_on_feature(nodes, j)) return false;
     return left_out.extent(0) == 0 || !(left_out(i) || left_out(j));
   };
   const auto counts_inside = [&](std::int64_t i, std::int64_t j) {
@@ -332,6 +330,14 @@ std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
   const SpacingBands bands = bands_of_nodes<Dim>(comm, measured);
   EdgeSums judged = edge_sums<Dim>(comm, measured, stars, bands, counts);
   if (!worst_missed_band(bands_with_edges(bands, judged))) return bands_with_edges(bands, judged);
+  if constexpr (Dim == 3) {
+    const auto counts_off_features = [&](std::int64_t i, std::int64_t j) {
+      return !is_on_feature(nodes, i) && !is_on_feature(nodes, j) && counts(i, j);
+    };
+    const EdgeSums off_features = edge_sums<Dim>(comm, measured, stars, bands, counts_off_features);
+    for (std::size_t k = 0; k < judged.of.size(); ++k)
+      if (ratio_of(judged.of[k]).mean > 1) judged.of[k] = off_features.of[k];
+  }
   const EdgeSums inside = edge_sums<Dim>(comm, measured, stars, bands, counts_inside);
   for (std::size_t k = 0; k < judged.of.size(); ++k)
     if (inside.of[k].edges >= kEnoughEdges && off(inside.of[k]) < off(judged.of[k]))
@@ -379,12 +385,9 @@ ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Di
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands) {
   constexpr double kMissed = 0.1;
   const EdgeBand* worst = nullptr;
-  for (const EdgeBand& band : bands) {
-    if (band.ratio.edges < kEnoughEdges) continue;
-    const double error = band.ratio.deviation / std::sqrt(static_cast<double>(band.ratio.edges));
-    const bool is_missed = off(band.ratio) > kMissed + 2 * error;
-    if (is_missed && (!worst || off(band.ratio) > off(worst->ratio))) worst = &band;
-  }
+  for (const EdgeBand& band : bands)
+    if (band.ratio.edges >= kEnoughEdges && off(band.ratio) > (worst ? off(worst->ratio) : kMissed))
+      worst = &band;
   return worst;
 }
 

@@ -58,21 +58,21 @@ ElementQuality measure_elements(const Communicator& comm, const MeasuredNodes<Di
                                 const Stars<Dim>& stars, const FillGhosts& fill_ghosts);
 
 // Returns the bands of d that have edges, with the statistics by which their agreement with d is
-// judged. A band is judged by its edges with at least one inner end. In a body, edges from feature
-// edges and corners to inner nodes do not count: a node inside a dihedral angle of 90 degrees keeps
-// about 1.15 d from the nodes of its edge, even where d is constant. If the edges miss d by more
-// than 10 % in some band, a band is judged by its edges with two inner ends instead, provided that
-// they are at least 50 and closer to d: a wall of thickness 1.5 d has edges through it as long as
-// it is thick, and beside a boundary of short edges inner edges may be too short. Edges with an end
-// in `left_out` (one entry per node) do not count; an empty view excludes none. Collective.
+// judged. A band is judged by its edges with at least one inner end. If these miss d by more than
+// 10 % in some band, two exceptions apply. In a body, where the edges are too long, those that end
+// at feature edges and corners do not count: a node inside a dihedral angle of 90 degrees keeps
+// about 1.15 d from the nodes of its edge, even where d is constant. Then a band is judged by its
+// edges with two inner ends, provided that they are at least 50 and closer to d: a wall of
+// thickness 1.5 d has edges through it as long as it is thick, and beside a boundary of short edges
+// inner edges may be too short. Edges with an end in `left_out` (one entry per node) do not count;
+// an empty view excludes none. Collective.
 template <int Dim>
 std::vector<EdgeBand> edge_bands_to_judge(const Communicator& comm,
                                           const MeasuredNodes<Dim>& measured,
                                           const Stars<Dim>& stars, const View<char>& left_out = {});
 
 // Returns the band whose mean edge ratio deviates most from 1, among bands with at least 50 edges
-// and a deviation of more than 10 % and twice the standard error of the mean. Returns nullptr if
-// none exists.
+// and a deviation of more than 10 %. Returns nullptr if none exists.
 const EdgeBand* worst_missed_band(const std::vector<EdgeBand>& bands);
 
 }  // namespace pnpbs

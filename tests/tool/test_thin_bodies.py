@@ -120,7 +120,7 @@ class ThinBodies(CommandTest):
         lost = report["volume"]["domain"] - report["volume"]["elements"]
         self.assertGreater(abs(lost), 0.005 * report["volume"]["domain"])
         self.assertEqual(report["status"], NOT_CONFORMING - 2)
-        report = self.place(name, 0.3)  # the edges through the fin, shorter than d, are at its feature edges
+        report = self.place(name, 0.3)  # only edges at the right angles of the cube are 1.1 d long
         self.assertAlmostEqual(report["volume"]["elements"], report["volume"]["domain"], delta=1e-9)
 
     @exists_if("PNPBS_MPIEXEC" in os.environ)
