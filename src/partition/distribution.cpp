@@ -60,17 +60,25 @@ void Distribution<Dim>::take_leaves(const BackgroundTree<Dim>* tree,
 }
 
 // Returns for each leaf the largest reach of a bubble within `hops` hops. Valid for the leaves
-// within `hops` hops of those that this rank holds. `from_own` has the number of hops from these,
-// up to 2 * hops.
+// within `hops` hops both of those that this rank holds and of those of other ranks near them.
+// `from_own` and `from_others` have the number of hops from these, up to 2 * hops.
 template <int Dim>
 std::vector<double> Distribution<Dim>::reach_within(
-    int hops, const std::vector<std::int32_t>& from_own) const {
+    int hops, const std::vector<std::int32_t>& from_own,
+    const std::vector<std::int32_t>& from_others) const {
   std::vector<double> max_reach = links_->reaches();
   for (int hop = 0; hop < hops; ++hop) {
     const std::vector<double> before = max_reach, in_cells = max_in_cells(*tree_, before);
     for (std::int32_t leaf = 0; leaf < tree_->leaf_count(); ++leaf) {
-      if (from_own[static_cast<std::size_t>(leaf)] >= 2 * hops - hop) continue;
-      double& max = max_reach[static_cast<std::size_t>(leaf)];
+      const auto l = static_cast<std::size_t>(leaf);
+      if (std::max(from_own[l], from_others[l]) >= 2 * hops - hop) continue;
+      double& max = max_reach[l];
+      if (holds(leaf)) {  // Lists of the nodes in it will read its row.
+        links_->for_neighbours(leaf, [&](std::int32_t other) {
+          max = std::max(max, before[static_cast<std::size_t>(other)]);
+        });
+        continue;
+      }
       links_->search_neighbours(
           leaf, [&](std::int32_t cell) { return in_cells[static_cast<std::size_t>(cell)] > max; },
           [&](std::int32_t other) { max = before[static_cast<std::size_t>(other)]; });
@@ -137,7 +145,13 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   const auto known = halos_.find(hops);
   if (known != halos_.end()) return known->second;
   const std::vector<std::int32_t> from_own = hops_from_own(2 * hops);
-  const std::vector<double> reach = reach_within(hops, from_own);
+  const std::map<int, std::vector<std::int32_t>> of_others =
+      near_leaves_of_others(hops + 1, from_own);
+  std::vector<std::int32_t> others;
+  for (const auto& [rank, leaves] : of_others)
+    others.insert(others.end(), leaves.begin(), leaves.end());
+  const std::vector<double> reach =
+      reach_within(hops, from_own, hops_from(*links_, others, 2 * hops));
   const auto hops_to = [&](std::int32_t leaf) { return from_own[static_cast<std::size_t>(leaf)]; };
   Halo halo;
   std::vector<std::pair<std::int32_t, std::int32_t>> needs;  // a leaf and a rank that needs it
@@ -153,7 +167,7 @@ const Halo& Distribution<Dim>::halo(int hops, double hop_share) {
   // A leaf between this rank and another one matters only if a path of the other's ghosts to the
   // leaves around the own ones can pass through it.
   HopSearch<Dim> search(*links_, [&](std::int32_t leaf) { return hops_to(leaf) <= hops; });
-  for (const auto& [rank, leaves] : near_leaves_of_others(hops + 1, from_own)) {
+  for (const auto& [rank, leaves] : of_others) {
     halo.neighbours_.push_back(rank);
     const std::vector<char> some = cells_with_some_of(rank);
     search.run(leaves, hops, [&, r = rank](std::int32_t leaf, int hop) {

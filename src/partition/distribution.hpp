@@ -118,7 +118,8 @@ class Distribution {
   std::vector<char> refined_;  // by cell
   std::map<int, Halo> halos_;
 
-  std::vector<double> reach_within(int hops, const std::vector<std::int32_t>& from_own) const;
+  std::vector<double> reach_within(int hops, const std::vector<std::int32_t>& from_own,
+                                   const std::vector<std::int32_t>& from_others) const;
   std::map<int, std::vector<std::int32_t>> near_leaves_of_others(
       int hops, const std::vector<std::int32_t>& from_own) const;
   void find_interior(Halo& halo, const std::vector<std::int32_t>& from_own) const;

@@ -46,8 +46,8 @@ class LeafGraph {
     if (!row) row = store_row(leaf);
     for (std::int32_t k = 1; k <= row[0]; ++k) visit(row[k]);
   }
-  // The same without storing the row. Skips each cell of the tree for which enter(cell) is false
-  // and all leaves in it.
+  // The same without storing the row, if it has not been stored. Skips each cell of the tree for
+  // which enter(cell) is false and all leaves in it.
   template <class Enter, class Visit>
   void search_neighbours(std::int32_t leaf, const Enter& enter, const Visit& visit) const;
 
@@ -103,6 +103,11 @@ template <int Dim>
 template <class Enter, class Visit>
 void LeafGraph<Dim>::search_neighbours(std::int32_t leaf, const Enter& enter,
                                        const Visit& visit) const {
+  if (const std::int32_t* row = rows_[index(leaf)].load(std::memory_order_acquire)) {
+    for (std::int32_t k = 1; k <= row[0]; ++k)
+      if (enter(tree_.leaf_cell(row[k]))) visit(row[k]);
+    return;
+  }
   const Box<Dim> own = tree_.cell_box(tree_.leaf_cell(leaf));
   search_cell(tree_.cell_around(widened(own, max_reach_[0])), leaf, own, enter, visit);
 }
