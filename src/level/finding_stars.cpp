@@ -181,7 +181,8 @@ class UnknownBoxes {
     const SphereCap cap(level_.geometry.domain().embedding().chart(), level_.nodes.position(i),
                         length);
     known_.for_unknown_leaves(
-        level_.tree->tree(), [&](const Box<2>& box) { return cap.meets(box); },
+        level_.tree->tree(),
+        [&](std::int32_t cell) { return cap.meets(level_.tree->tree().cell_box_with_room(cell)); },
         [&](std::int32_t leaf) { request_leaf(leaf); });
   }
 
@@ -230,18 +231,6 @@ OwnedNodesBox owned_nodes_box(const Nodes<3>& nodes, std::int64_t begin, std::in
   return owned;
 }
 
-// Returns how far around a box nodes must be known. The owned nodes in the box have d up to max_d.
-// A node must be known if its distance from one of them is less than the sum of both reaches, in
-// units of d. The bound uses the largest d of the leaves near the box.
-double reach_of_pairs(const Level<3>& level, double reach, const Box<3>& box, double max_d) {
-  const double own = reach * max_d;
-  double sum = 2 * own;
-  level.tree->tree().for_leaves_in(widened(box, 2 * own), [&](std::int32_t leaf) {
-    sum = std::max(sum, own + reach * level.map().leaf_max_spacing(leaf));
-  });
-  return sum;
-}
-
 // Requests the unknown leaves that are closer to an owned node than the sum of both reaches.
 void request_pairs(const Level<3>& level, const KnownRegion<3>& known, double reach,
                    UnknownBoxes<3>& unknown) {
@@ -253,12 +242,19 @@ void request_pairs(const Level<3>& level, const KnownRegion<3>& known, double re
     const Box<3> box = tree.cell_box_with_room(tree.leaf_cell(leaf));
     return squared_gap_to(box, nodes.position(i)) < sum * sum;
   };
+  std::vector<double> max_d;
+  for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+    max_d.push_back(level.map().leaf_max_spacing(leaf));
+  const std::vector<double> max_d_in = max_in_cells(tree, max_d);
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     const OwnedNodesBox owned = owned_nodes_box(nodes, buckets.begin(leaf), buckets.end(leaf));
     if (owned.max_d == 0) continue;
-    const double most = reach_of_pairs(level, reach, owned.box, owned.max_d);
     known.for_unknown_leaves(
-        tree, [&](const Box<3>& box) { return squared_gap(box, owned.box) < most * most; },
+        tree,
+        [&](std::int32_t cell) {
+          const double most = reach * (owned.max_d + max_d_in[static_cast<std::size_t>(cell)]);
+          return squared_gap(tree.cell_box_with_room(cell), owned.box) < most * most;
+        },
         [&](std::int32_t other) {
           for (std::int64_t i = buckets.begin(leaf); i < buckets.end(leaf); ++i)
             if (nodes.owned(i) && is_near(i, other)) return unknown.request_leaf(other);

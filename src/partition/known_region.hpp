@@ -36,14 +36,12 @@ class KnownRegion {
     });
   }
 
-  // Calls visit(leaf) for each unknown leaf whose box fulfils meets(box). If meets() holds for a
-  // box, it must hold for the boxes of all cells around it.
+  // Calls visit(leaf) for each unknown leaf with meets(its cell). If meets() holds for a cell, it
+  // must hold for all cells around it.
   template <class Meets, class Visit>
   void for_unknown_leaves(const BackgroundTree<Dim>& tree, const Meets& meets,
                           const Visit& visit) const {
-    const auto look = [&](std::int32_t cell) {
-      return unknown_in(cell) && meets(tree.cell_box_with_room(cell));
-    };
+    const auto look = [&](std::int32_t cell) { return unknown_in(cell) && meets(cell); };
     if (!is_everywhere()) tree.for_leaves_in(tree.cell_box(0), look, visit);
   }
 

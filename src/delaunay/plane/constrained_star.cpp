@@ -286,8 +286,9 @@ double star_in_patch(const StarInput& input, std::int64_t i, std::vector<Entry>&
   for (double length = kFirst * input.nodes.d(i) / chart.stretch(at);; length *= kNext) {
     const SphereCap cap(chart, at, length);
     bool known = true;
+    const BackgroundTree<2>& tree = input.map.tree();
     input.known.for_unknown_leaves(
-        input.map.tree(), [&](const Box<2>& box) { return cap.meets(box); },
+        tree, [&](std::int32_t cell) { return cap.meets(tree.cell_box_with_room(cell)); },
         [&](std::int32_t) { known = false; });
     star.resize(before);
     if (!known) return length;
