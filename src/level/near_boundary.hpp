@@ -6,11 +6,12 @@
 //     stores it.
 //   - reset(geometry) adopts another boundary.
 //   - build(nodes, at, buckets, map, geometry) finds what is within radius() * d_i of each node,
-//     for the positions `at`. It is called at every rebuild of the lists.
+//     for the positions `at`. It is called at every rebuild of the lists. In space it examines only
+//     the nodes that get lists, and add() those that get them later.
 //   - visibility(nodes, map, geometry) returns the visibility test for AdjacencyList::build. In
 //     space it records the nodes from which others are hidden.
 //   - within(i, reach) returns whether the boundary is closer to node i than `reach`, which may be
-//     at most radius() * d_i.
+//     at most radius() * d_i. In space the node must have a list.
 //   - constrains(nodes, i, reach) returns whether the boundary may block node i if steps lead no
 //     farther than `reach`.
 //   - hold_off(i, nodes, map, geometry, to) returns the position of node i for the desired position

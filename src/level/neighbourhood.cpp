@@ -64,6 +64,7 @@ template <int Dim>
 void Neighbourhood<Dim>::add_lists(const Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                    const LevelTree<Dim>& tree,
                                    const std::vector<std::int32_t>& more) {
+  if constexpr (Dim == 3) near_boundary_.add(nodes, buckets_, tree.map(), geometry, more);
   lists_.add(nodes, buckets_, near_boundary_.visibility(nodes, tree.map(), geometry), more);
 }
 
@@ -83,7 +84,10 @@ void Neighbourhood<Dim>::rebuild(Nodes<Dim>& nodes, const LevelGeometry<Dim>& ge
   for_steps_ = false;
   arrangement_ = -1;
   const SizedTree<Dim>& map = tree.map();
-  near_boundary_.build(nodes, seen_from, buckets_, map, geometry);
+  if constexpr (Dim == 3)
+    near_boundary_.build(nodes, seen_from, buckets_, map, geometry, listed);
+  else
+    near_boundary_.build(nodes, seen_from, buckets_, map, geometry);
   lists_.build(nodes, buckets_, radius, near_boundary_.visibility(nodes, map, geometry), listed);
   listed_nodes_ = listed;
   nodes.set_padding();

@@ -90,7 +90,7 @@ View<char> nodes_without_room(const Level<Dim>& level) {
     const bool look = any_neighbour_within(nodes, lists, kALittleMore * method::kNearlyCoincide, b);
     for (std::int64_t i = b * kLanes; i < std::min((b + 1) * kLanes, nodes.count); ++i) {
       no_room(i) = 0;
-      if (!nodes.moves(i)) continue;
+      if (!nodes.moves(i) || !lists.has(i)) continue;
       no_room(i) = pressed_to_boundary(level, i);
       if (look) for_coinciding(nodes, lists, i, [&](std::int64_t) { no_room(i) = 1; });
     }

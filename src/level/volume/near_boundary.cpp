@@ -79,7 +79,8 @@ NearBoundary<3>::NearLeaves NearBoundary<3>::near_leaves(const LevelTree<3>& lev
 }
 
 void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
-                            const SizedTree<3>& map, const LevelGeometry<3>& geometry) {
+                            const SizedTree<3>& map, const LevelGeometry<3>& geometry,
+                            ListsOf listed) {
   at_ = at;
   if (static_cast<std::int64_t>(gap_.extent(0)) < nodes.capacity()) {
     gap_ = make_view<double>("pnpbs::NearBoundary::gap", nodes.capacity());
@@ -87,7 +88,20 @@ void NearBoundary<3>::build(const Nodes<3>& nodes, const Field<3>& at, const Buc
   }
   for_each("pnpbs::NearBoundary::build", nodes.count, [&](std::int64_t i) {
     hidden_(i) = 0;
-    gap_(i) = nodes.moves(i) ? gap_of(i, nodes, buckets, map, geometry) : kFarAway;
+    if (!nodes.moves(i))
+      gap_(i) = kFarAway;
+    else if (listed == ListsOf::owned_nodes && !nodes.owned(i))
+      gap_(i) = 0;
+    else
+      gap_(i) = gap_of(i, nodes, buckets, map, geometry);
+  });
+}
+
+void NearBoundary<3>::add(const Nodes<3>& nodes, const Buckets<3>& buckets, const SizedTree<3>& map,
+                          const LevelGeometry<3>& geometry, const std::vector<std::int32_t>& more) {
+  for_each("pnpbs::NearBoundary::add", std::ssize(more), [&](std::int64_t k) {
+    const std::int32_t i = more[static_cast<std::size_t>(k)];
+    if (nodes.moves(i)) gap_(i) = gap_of(i, nodes, buckets, map, geometry);
   });
 }
 

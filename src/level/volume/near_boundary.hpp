@@ -11,6 +11,7 @@
 #include "base/nodes.hpp"
 #include "level/level_geometry.hpp"
 #include "level/level_tree.hpp"
+#include "neighbors/adjacency_list.hpp"
 #include "neighbors/buckets.hpp"
 
 namespace pnpbs {
@@ -58,8 +59,12 @@ class NearBoundary<3> {
   void adopt(NearLeaves near) { near_ = std::move(near); }
   void reset(const LevelGeometry<3>&) {}
 
+  // Measures the distances of the nodes that get lists.
   void build(const Nodes<3>& nodes, const Field<3>& at, const Buckets<3>& buckets,
-             const SizedTree<3>& map, const LevelGeometry<3>& geometry);
+             const SizedTree<3>& map, const LevelGeometry<3>& geometry, ListsOf listed);
+  // Measures the distances of the nodes `more`, whose lists are added.
+  void add(const Nodes<3>& nodes, const Buckets<3>& buckets, const SizedTree<3>& map,
+           const LevelGeometry<3>& geometry, const std::vector<std::int32_t>& more);
   VisibilityInSpace visibility(const Nodes<3>& nodes, const SizedTree<3>&,
                                const LevelGeometry<3>& geometry) {
     return {nodes, at_, geometry, hidden_};
@@ -69,6 +74,7 @@ class NearBoundary<3> {
   bool leaf_is_clear(std::int32_t leaf) const {
     return near_.clear[static_cast<std::size_t>(leaf)] != 0;
   }
+  // Returns whether a facet is within `reach` of node i, which must have a list.
   bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
   // Returns whether the boundary hid no node from node i in the last rebuild of the lists.
   bool sees_all(std::int64_t i) const { return hidden_(i) == 0; }
@@ -102,7 +108,7 @@ class NearBoundary<3> {
   NearLeaves near_;
   Field<3> at_;
   // Distance of a free node from the nearest facet, and of a surface node from the nearest feature
-  // edge; kFarAway if it exceeds the radius.
+  // edge; kFarAway if it exceeds the radius, and 0, a lower bound, if the node has no list.
   NodeArray<double> gap_;
   NodeArray<char> hidden_;  // nonzero: the boundary hides a node from this one
 };
