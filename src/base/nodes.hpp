@@ -271,10 +271,16 @@ struct Nodes {
     std::swap(array.view(), spare);
   }
 
+  // Most nodes that stay are in long runs of consecutive indices.
   template <class T>
   static void keep_in_array(NodeArray<T>& array, const View<std::int32_t>& places,
                             std::int64_t kept) {
-    for (std::int64_t i = 0; i < kept; ++i) array(i) = array(places(i));
+    T* const values = array.data();
+    for (std::int64_t begin = 0, end = 0; begin < kept; begin = end) {
+      const std::int64_t shift = places(begin) - begin;
+      while (end < kept && places(end) - end == shift) ++end;
+      if (shift > 0) std::copy(values + begin + shift, values + end + shift, values + begin);
+    }
   }
 
   void make_spare() {
