@@ -41,12 +41,16 @@ double longest_edge(const FacetCorners<3>& corners) {
 constexpr double kRounding = 1000;    // height [tolerance]
 constexpr double kFlatHeight = 1e-4;  // height [shorter of the two other edges]
 
-bool is_thin(const FacetCorners<3>& corners, double tolerance) {
+// The triangles that are removed beside those without area.
+enum class Thin { within_tolerance, flat_by_rounding };
+
+bool is_thin(const FacetCorners<3>& corners, double tolerance, Thin thin) {
   const double longest = longest_edge(corners);
   const double twice_area =
       length(cross(difference(corners[1], corners[0]), difference(corners[2], corners[0])));
   const double height = longest == 0 ? 0 : twice_area / longest;
   if (height <= tolerance) return true;
+  if (thin == Thin::within_tolerance) return false;
   const int k = apex_of(corners);
   const double shorter = std::min(distance<3>(corners[k], corners[(k + 1) % 3]),
                                   distance<3>(corners[k], corners[(k + 2) % 3]));
@@ -57,8 +61,8 @@ constexpr std::size_t kMaxCuts = 10;  // most cuts per triangle, far more than n
 
 class Thinner {
  public:
-  Thinner(Triangulation& surface, double tolerance)
-      : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance) {}
+  Thinner(Triangulation& surface, double tolerance, Thin thin)
+      : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance), removes_(thin) {}
 
   // Returns the number of removed triangles and the name of the first.
   std::pair<std::int64_t, MessageText> run() {
@@ -86,7 +90,7 @@ class Thinner {
     gone_.resize(triangles_.size(), 0);
     if (is_collapsed(triangles_[t])) {
       remove(t);
-    } else if (is_thin(surface_.corners(t), tolerance_)) {
+    } else if (is_thin(surface_.corners(t), tolerance_, removes_)) {
       thin_.push({longest_edge(surface_.corners(t)), t});
     }
   }
@@ -134,6 +138,7 @@ class Thinner {
   Triangulation& surface_;
   std::vector<SurfaceTriangle>& triangles_;
   double tolerance_;
+  Thin removes_;
   std::vector<char> gone_;
   std::priority_queue<std::pair<double, std::int32_t>> thin_;
   std::vector<std::vector<std::int32_t>> at_vertex_;
@@ -146,13 +151,17 @@ class Thinner {
 
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings) {
-  const auto [count, first] = Thinner(surface, tolerance).run();
+  const auto [count, first] = Thinner(surface, tolerance, Thin::flat_by_rounding).run();
   if (count == 0) return;
   warnings.emplace_back(WarningCode::triangles_left_out,
                         std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
                             " a negligible area and " + (count == 1 ? "is" : "are") +
                             " left out; the first is " + first,
                         count);
+}
+
+void remove_thin_pieces(Triangulation& surface, double tolerance) {
+  Thinner(surface, tolerance, Thin::within_tolerance).run();
 }
 
 void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings) {

@@ -17,6 +17,9 @@ namespace pnpbs {
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings);
 
+// The same for pieces of triangles, without a warning. Flat pieces with a larger height stay.
+void remove_thin_pieces(Triangulation& surface, double tolerance);
+
 // Removes all but the first of the triangles of one source that have the same corners, with a
 // warning. Throws Error(ErrorKind::domain) if they belong to two sources.
 void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings);

@@ -36,6 +36,7 @@ Box<3> Triangulation::box(std::int32_t t) const {
 
 MessageText Triangulation::vertex_name(std::int32_t v) const {
   const GivenVertex& first = given[v];
+  if (first.source < 0) return "the intersection at " + point_text(vertices[v]);
   return "vertex " + std::to_string(first.number) + " of " + sources[first.source] + " " +
          point_text(vertices[v]);
 }

@@ -77,7 +77,7 @@ struct SurfaceTriangle {
 
 // Triangles of several sources, over common vertices.
 struct Triangulation {
-  // The first vertex that was given at a position.
+  // The first vertex that was given at a position; -1 for intersections of triangles.
   struct GivenVertex {
     std::int32_t source, number;
   };

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surfaces/arrangement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/index.hpp"
+#include "base/limits.hpp"
+#include "base/mixed_hash.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "base/union_find.hpp"
+#include "geometry/volume/triangle_contacts.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "geometry/volume/welding.hpp"
+#include "predicates/space.hpp"
+#include "surfaces/exact_points.hpp"
+#include "surfaces/plane_graph.hpp"
+#include "surfaces/plane_triangulation.hpp"
+#include "surfaces/thin_triangles.hpp"
+#include "tree/box_tree.hpp"
+
+namespace pnpbs {
+
+namespace {
+
+using Corners = std::array<std::int32_t, 3>;
+using Segment = std::array<std::int32_t, 2>;
+
+// Most times that triangles are split. Rounding moves vertices by the last digit, so that new
+// crossings are rare and short.
+constexpr int kMostRounds = 8;
+
+Corners sorted(Corners vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+// Returns whether two triangles with the same vertices have the same orientation.
+bool same_turn(const Corners& a, const Corners& b) {
+  const auto at = std::find(b.begin(), b.end(), a[0]) - b.begin();
+  return b[static_cast<std::size_t>(at + 1) % 3] == a[1];
+}
+
+void turn_around(Corners& vertices) { std::swap(vertices[1], vertices[2]); }
+
+// Sets of given triangles that contain a piece. A member is twice the index of the triangle, plus 1
+// if its orientation is the opposite one.
+class ParentSets {
+ public:
+  explicit ParentSets(std::size_t triangles) {
+    for (std::size_t t = 0; t < triangles; ++t) sets_.push_back({static_cast<std::int32_t>(2 * t)});
+  }
+
+  // Set t contains triangle t alone.
+  const std::vector<std::int32_t>& members(std::int32_t set) const { return sets_[index(set)]; }
+
+  // Returns the union of two sets. The orientations of `other` are reversed if `turned` is true.
+  std::int32_t united(std::int32_t set, std::int32_t other, bool turned) {
+    std::vector<std::int32_t> all = members(set);
+    for (const std::int32_t member : members(other)) all.push_back(member ^ (turned ? 1 : 0));
+    std::sort(all.begin(), all.end());
+    // A triangle that was folded by rounding counts once.
+    all.erase(std::unique(all.begin(), all.end(),
+                          [](std::int32_t a, std::int32_t b) { return a / 2 == b / 2; }),
+              all.end());
+    if (all == members(set)) return set;
+    const auto [entry, is_new] = known_.try_emplace(all, static_cast<std::int32_t>(sets_.size()));
+    if (is_new) sets_.push_back(all);
+    return entry->second;
+  }
+
+ private:
+  std::vector<std::vector<std::int32_t>> sets_;
+  std::map<std::vector<std::int32_t>, std::int32_t> known_;
+};
+
+// A triangle or a part of one.
+struct Piece {
+  Corners vertices;
+  std::int32_t parents;  // index of a set
+  bool unchecked;        // false if it meets no other piece for which this is false
+};
+
+FacetCorners<3> corners_of(const std::vector<Point<3>>& positions, const Corners& vertices) {
+  return {positions[index(vertices[0])], positions[index(vertices[1])],
+          positions[index(vertices[2])]};
+}
+
+// Makes pieces with the same vertices one.
+void unite_equal(std::vector<Piece>& pieces, ParentSets& parents) {
+  std::vector<std::pair<Corners, std::size_t>> order(pieces.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) order[p] = {sorted(pieces[p].vertices), p};
+  std::sort(order.begin(), order.end());
+  std::vector<char> gone(pieces.size(), 0);
+  bool any = false;
+  for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
+    if (order[i].first != order[first].first) {
+      first = i;
+      continue;
+    }
+    Piece& stays = pieces[order[first].second];
+    const Piece& other = pieces[order[i].second];
+    const bool turned = !same_turn(stays.vertices, other.vertices);
+    stays.parents = parents.united(stays.parents, other.parents, turned);
+    gone[order[i].second] = 1;
+    any = true;
+  }
+  if (!any) return;
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    if (gone[p] == 0) pieces[kept++] = pieces[p];
+  pieces.resize(kept);
+}
+
+using MeetingPair = std::array<std::int32_t, 2>;  // the lower index first
+
+// Returns the pairs of pieces that meet other than in common vertices and edges, in order.
+std::vector<MeetingPair> meeting_pairs(const std::vector<Point<3>>& positions,
+                                       const std::vector<Piece>& pieces) {
+  std::vector<Box<3>> boxes;
+  boxes.reserve(pieces.size());
+  for (const Piece& piece : pieces) {
+    boxes.push_back(empty_box<3>());
+    for (const std::int32_t v : piece.vertices) include(boxes.back(), positions[index(v)]);
+  }
+  const BoxTree<3> tree(boxes);
+  std::vector<MeetingPair> pairs;
+  const auto count = static_cast<std::int32_t>(pieces.size());
+  for (std::int32_t p = 0; p < count; ++p) {
+    const Piece& piece = pieces[index(p)];
+    if (!piece.unchecked) continue;
+    const FacetCorners<3> corners = corners_of(positions, piece.vertices);
+    tree.for_meeting(boxes[index(p)], [&](std::int32_t q) {
+      const Piece& other = pieces[index(q)];
+      if (q == p || (other.unchecked && q < p)) return;
+      if (triangles_meet(corners, piece.vertices, corners_of(positions, other.vertices),
+                         other.vertices))
+        pairs.push_back({std::min(p, q), std::max(p, q)});
+    });
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+// Splits pieces once, where given pairs of them meet.
+class Splitting {
+ public:
+  Splitting(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces)
+      : points_(positions), pieces_(pieces), in_plane_(pieces.size()), split_(pieces.size(), 0) {}
+
+  void run(const std::vector<MeetingPair>& pairs) {
+    for (const MeetingPair& pair : pairs)
+      for (const std::int32_t p : pair)
+        for (const std::int32_t v : pieces_[index(p)].vertices) points_.use(v);
+    for (const MeetingPair& pair : pairs) find_contact(pair[0], pair[1]);
+    split_planes();
+  }
+
+  const ExactPoints& points() const { return points_; }
+  // The pieces that were split are replaced by their parts.
+  std::vector<Piece> result() && {
+    std::vector<Piece> all;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      if (split_[p] == 0) {
+        all.push_back(pieces_[p]);
+        all.back().unchecked = false;
+      }
+    all.insert(all.end(), parts_.begin(), parts_.end());
+    return all;
+  }
+
+ private:
+  // A segment, or a point if both ends are equal, at which a piece is to be split.
+  struct Cut {
+    std::int32_t piece;
+    Segment ends;
+    bool operator<(const Cut& other) const {
+      return piece != other.piece ? piece < other.piece : ends < other.ends;
+    }
+  };
+
+  const Corners& vertices(std::int32_t p) const { return pieces_[index(p)].vertices; }
+  const Point<3>& position(std::int32_t v) const { return points_.position(v); }
+
+  // ------------------------------------------------------------ contacts
+  void find_contact(std::int32_t p, std::int32_t q) {
+    const std::array<int, 3> sides_p = sides(p, q), sides_q = sides(q, p);
+    if (sides_p == std::array{0, 0, 0}) {
+      in_plane_.join(p, q);
+      grouped_.push_back(p);
+      grouped_.push_back(q);
+      return;
+    }
+    // Two triangles in different planes meet in one segment, the ends of which are found.
+    std::vector<std::int32_t> ends;
+    find_ends(p, sides_p, q, ends);
+    find_ends(q, sides_q, p, ends);
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    if (ends.empty()) return;
+    add_cut(p, {ends.front(), ends.back()});
+    add_cut(q, {ends.front(), ends.back()});
+  }
+
+  // Returns on which sides of the plane of q the vertices of p lie.
+  std::array<int, 3> sides(std::int32_t p, std::int32_t q) const {
+    const auto& [a, b, c] = vertices(q);
+    std::array<int, 3> sides{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t v = vertices(p)[k];
+      if (v != a && v != b && v != c)
+        sides[k] = orientation(position(a), position(b), position(c), position(v));
+    }
+    return sides;
+  }
+
+  // Finds the points at which edges of p cross q, and the vertices of p on q.
+  void find_ends(std::int32_t p, const std::array<int, 3>& sides, std::int32_t q,
+                 std::vector<std::int32_t>& ends) {
+    const Corners &from = vertices(p), &plane = vertices(q);
+    const FacetCorners<3> triangle{position(plane[0]), position(plane[1]), position(plane[2])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = from[k], b = from[(k + 1) % 3];
+      if (sides[k] == 0) {
+        if (std::find(plane.begin(), plane.end(), a) != plane.end() ||
+            on_facet(triangle, position(a)))
+          ends.push_back(a);
+      } else if (sides[k] * sides[(k + 1) % 3] < 0 &&
+                 segment_meets(position(a), position(b), triangle)) {
+        ends.push_back(crossing(a, b, q));
+      }
+    }
+  }
+
+  std::int32_t crossing(std::int32_t a, std::int32_t b, std::int32_t q) {
+    const auto [entry, is_new] = crossings_.try_emplace({std::min(a, b), std::max(a, b), q}, -1);
+    if (is_new) entry->second = points_.on_plane(a, b, vertices(q));
+    return entry->second;
+  }
+
+  // Vertices and edges of the piece are no cuts.
+  void add_cut(std::int32_t p, const Segment& ends) {
+    const Corners& corners = vertices(p);
+    const auto is_corner = [&](std::int32_t v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
+    if (!is_corner(ends[0]) || !is_corner(ends[1])) cuts_.push_back({p, ends});
+  }
+
+  // ------------------------------------------------------------ planes
+  // Splits the pieces that have cuts, those that lie on each other together.
+  void split_planes() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> members;  // a root and a piece
+    for (const std::int32_t p : grouped_) members.emplace_back(in_plane_.root(p), p);
+    for (const Cut& cut : cuts_) members.emplace_back(in_plane_.root(cut.piece), cut.piece);
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+    std::sort(cuts_.begin(), cuts_.end());
+    std::vector<std::int32_t> group;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      group.push_back(members[m].second);
+      if (m + 1 < members.size() && members[m + 1].first == members[m].first) continue;
+      split_group(group);
+      group.clear();
+    }
+  }
+
+  void split_group(const std::vector<std::int32_t>& group) {
+    const int k = axis(group[0]);
+    std::vector<Segment> segments;
+    for (const std::int32_t p : group) {
+      split_[index(p)] = 1;
+      const Corners& corners = vertices(p);
+      for (std::size_t i = 0; i < 3; ++i) segments.push_back({corners[i], corners[(i + 1) % 3]});
+      for (auto cut = std::lower_bound(cuts_.begin(), cuts_.end(), Cut{p, {-1, -1}});
+           cut != cuts_.end() && cut->piece == p; ++cut)
+        segments.push_back(cut->ends);
+    }
+    const PlaneGraph graph = split_segments(points_, k, std::move(segments));
+    std::vector<Corners> triangles = triangulate(points_, k, graph);
+    for (Corners& triangle : triangles)
+      for (std::int32_t& v : triangle) v = graph.points[index(v)];
+    if (group.size() == 1) {
+      add_parts(group[0], k, triangles);
+    } else {
+      add_parts_of_several(group, k, triangles);
+    }
+  }
+
+  // Returns an axis along which the projection of the piece has an area, the one along which it is
+  // largest if rounding allows.
+  int axis(std::int32_t p) const {
+    const auto& [a, b, c] = vertices(p);
+    const Point<3> normal =
+        cross(difference(position(b), position(a)), difference(position(c), position(a)));
+    std::array<int, 3> axes{0, 1, 2};
+    std::sort(axes.begin(), axes.end(), [&](int i, int j) {
+      return std::fabs(normal[static_cast<std::size_t>(i)]) >
+             std::fabs(normal[static_cast<std::size_t>(j)]);
+    });
+    for (const int k : axes)
+      if (points_.orientation(k, a, b, c) != 0) return k;
+    return axes[0];
+  }
+
+  // Adds parts that are counter-clockwise in the projection.
+  void add_parts(std::int32_t p, int k, const std::vector<Corners>& triangles) {
+    const auto& [a, b, c] = vertices(p);
+    const bool turned = points_.orientation(k, a, b, c) < 0;
+    for (Corners part : triangles) {
+      if (turned) turn_around(part);
+      parts_.push_back({part, pieces_[index(p)].parents, true});
+    }
+  }
+
+  // Adds the parts within any of the pieces, once for each.
+  void add_parts_of_several(const std::vector<std::int32_t>& group, int k,
+                            const std::vector<Corners>& triangles) {
+    std::vector<Box<2>> boxes;
+    std::vector<Corners> outlines;  // the pieces, counter-clockwise in the projection
+    for (const std::int32_t p : group) {
+      boxes.push_back(empty_box<2>());
+      for (const std::int32_t v : vertices(p)) include(boxes.back(), projection(k, position(v)));
+      outlines.push_back(vertices(p));
+      const auto& [a, b, c] = vertices(p);
+      if (points_.orientation(k, a, b, c) < 0) turn_around(outlines.back());
+    }
+    const BoxTree<2> tree(std::move(boxes));
+    std::vector<std::int32_t> found;
+    for (const Corners& part : triangles) {
+      found.clear();
+      tree.for_holding(projection(k, position(part[0])), [&](std::int32_t i) {
+        if (lies_within(part, outlines[index(i)], k)) found.push_back(group[index(i)]);
+      });
+      std::sort(found.begin(), found.end());
+      for (const std::int32_t p : found) add_parts(p, k, {part});
+    }
+  }
+
+  bool lies_within(const Corners& part, const Corners& outline, int k) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const std::int32_t v : part)
+        if (points_.orientation(k, outline[i], outline[(i + 1) % 3], v) < 0) return false;
+    return true;
+  }
+
+  struct KeyHash {
+    std::size_t operator()(const Corners& key) const {
+      std::uint64_t hash = 0;
+      for (const std::int32_t part : key) hash = mixed(hash ^ static_cast<std::uint64_t>(part));
+      return hash;
+    }
+  };
+
+  ExactPoints points_;
+  const std::vector<Piece>& pieces_;
+  UnionFind<std::int32_t> in_plane_;  // joins pieces that lie on each other
+  std::vector<std::int32_t> grouped_;
+  std::vector<Cut> cuts_;
+  std::unordered_map<Corners, std::int32_t, KeyHash> crossings_;  // of an edge and a piece
+  std::vector<char> split_;                                       // per piece
+  std::vector<Piece> parts_;
+};
+
+class Arranger {
+ public:
+  Arranger(Triangulation& surface, double tolerance)
+      : surface_(surface),
+        tolerance_(tolerance),
+        positions_(surface.vertices),
+        parents_(surface.triangles.size()) {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      pieces_.push_back({surface.triangles[t].vertices, static_cast<std::int32_t>(t), true});
+  }
+
+  ArrangementSummary run(SplitAt split_at, std::vector<CoveredTriangle>& covered) {
+    ArrangementSummary summary;
+    unite_equal(pieces_, parents_);
+    while (true) {
+      const std::vector<MeetingPair> pairs = meeting_pairs(positions_, pieces_);
+      if (pairs.empty()) break;
+      if (summary.rounds == kMostRounds) reject(pairs);
+      ++summary.rounds;
+      Splitting splitting(positions_, pieces_);
+      splitting.run(pairs);
+      if (split_at == SplitAt::given_vertices &&
+          splitting.points().count() > splitting.points().given_count())
+        return {};
+      std::vector<Piece> pieces = std::move(splitting).result();
+      round(splitting.points(), pieces);
+      pieces_ = std::move(pieces);
+    }
+    write(summary, covered);
+    return summary;
+  }
+
+ private:
+  // Moves constructed points to doubles, merges those that are too close, and removes pieces
+  // without area.
+  void round(const ExactPoints& points, std::vector<Piece>& pieces) {
+    std::vector<std::int32_t> added;
+    for (std::int32_t p = points.given_count(); p < points.count(); ++p) added.push_back(p);
+    std::sort(added.begin(), added.end(), [&](std::int32_t a, std::int32_t b) {
+      return points.position(a) != points.position(b) ? points.position(a) < points.position(b)
+                                                      : a < b;
+    });
+    std::vector<std::int32_t> vertex(index(points.count()));
+    std::iota(vertex.begin(), vertex.begin() + points.given_count(), 0);
+    for (const std::int32_t p : added) {
+      vertex[index(p)] = static_cast<std::int32_t>(positions_.size());
+      positions_.push_back(points.position(p));
+    }
+    const std::vector<std::int32_t> welded = weld_points(positions_, tolerance_);
+    for (Piece& piece : pieces)
+      for (std::int32_t& v : piece.vertices) v = welded[index(vertex[index(v)])];
+    remove_thin(pieces);
+    unite_equal(pieces, parents_);
+  }
+
+  void remove_thin(std::vector<Piece>& pieces) const {
+    Triangulation triangulation{surface_.sources, surface_.tag_names, positions_, {}, {}};
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      triangulation.triangles.push_back(
+          {pieces[p].vertices, 0, 0, static_cast<std::int32_t>(p), false});
+    remove_thin_pieces(triangulation, tolerance_);
+    std::vector<Piece> kept;
+    for (const SurfaceTriangle& triangle : triangulation.triangles) {
+      Piece piece = pieces[index(triangle.number)];
+      piece.unchecked = piece.unchecked || piece.vertices != triangle.vertices;
+      piece.vertices = triangle.vertices;
+      kept.push_back(piece);
+    }
+    pieces = std::move(kept);
+  }
+
+  [[noreturn]] void reject(const std::vector<MeetingPair>& pairs) const {
+    const Piece &p = pieces_[index(pairs[0][0])], &q = pieces_[index(pairs[0][1])];
+    const Contact contact =
+        contact_of(corners_of(positions_, p.vertices), corners_of(positions_, q.vertices));
+    throw BrokenSurface(
+        surface_.triangle_name(parents_.members(p.parents)[0] / 2) + " and " +
+        surface_.triangle_name(parents_.members(q.parents)[0] / 2) + " meet at " +
+        point_text(contact.place) +
+        " and cannot be split there because coordinates are rounded: move the surfaces apart, or "
+        "give them common vertices there");
+  }
+
+  // Writes the pieces as triangles in the order of the triangles that they come from.
+  void write(ArrangementSummary& summary, std::vector<CoveredTriangle>& covered) {
+    std::vector<std::pair<std::int32_t, std::size_t>> order;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      order.emplace_back(parents_.members(pieces_[p].parents)[0] / 2, p);
+    std::sort(order.begin(), order.end());
+    std::vector<std::int32_t> number(positions_.size(), -1);
+    const std::size_t given = surface_.vertices.size();
+    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(given), 0);
+    const auto vertex = [&](std::int32_t v) {
+      if (number[index(v)] < 0) {
+        number[index(v)] = static_cast<std::int32_t>(surface_.vertices.size());
+        surface_.vertices.push_back(positions_[index(v)]);
+        surface_.given.push_back({-1, -1});
+      }
+      return number[index(v)];
+    };
+    std::vector<char> unchanged(surface_.triangles.size(), 0);
+    std::vector<SurfaceTriangle> triangles;
+    for (const auto& [first, p] : order) {
+      Corners vertices = pieces_[p].vertices;
+      for (std::int32_t& v : vertices) v = vertex(v);
+      bool is_first = true;
+      for (const std::int32_t member : parents_.members(pieces_[p].parents)) {
+        SurfaceTriangle triangle = surface_.triangles[index(member / 2)];
+        if (sorted(triangle.vertices) == sorted(vertices)) {
+          unchanged[index(member / 2)] = 1;
+        } else {
+          triangle.vertices = vertices;
+          if (member % 2 != 0) triangle.turn_around();
+        }
+        if (is_first) {
+          triangles.push_back(triangle);
+        } else {
+          covered.push_back({static_cast<std::int32_t>(triangles.size()) - 1, triangle});
+        }
+        is_first = false;
+      }
+    }
+    surface_.triangles = std::move(triangles);
+    summary.split = std::count(unchanged.begin(), unchanged.end(), 0);
+    summary.new_vertices = static_cast<std::int64_t>(surface_.vertices.size() - given);
+    summary.covered = std::ssize(covered);
+  }
+
+  Triangulation& surface_;
+  double tolerance_;
+  std::vector<Point<3>> positions_;  // of the given vertices and of new ones
+  ParentSets parents_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace
+
+ArrangementSummary arrange(Triangulation& surface, double tolerance, SplitAt split_at,
+                           std::vector<CoveredTriangle>& covered) {
+  return Arranger(surface, tolerance).run(split_at, covered);
+}
+
+}  // namespace pnpbs

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splits triangles where they meet, so that surfaces that cross, touch or lie on each other become
+// one triangulation.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surfaces/triangulation.hpp"
+
+namespace pnpbs {
+
+// A triangle on which another one lies.
+struct CoveredTriangle {
+  std::int32_t triangle;    // index of the triangle that stays
+  SurfaceTriangle covered;  // its vertices have the order of the given triangle
+};
+
+struct ArrangementSummary {
+  std::int64_t split = 0;         // given triangles that were split or removed
+  std::int64_t new_vertices = 0;  // vertices at which no given one lies
+  std::int64_t covered = 0;       // triangles that lay on another one
+  int rounds = 0;                 // how often triangles were split
+};
+
+// The vertices at which triangles may be split.
+enum class SplitAt { any_point, given_vertices };
+
+// Splits triangles where they meet other than in common vertices and edges. Triangles that lie on
+// each other become one, which comes from the first of them; `covered` lists the others. Pieces
+// keep the attributes of the triangle that they are part of. The decisions are exact, and each new
+// vertex has the coordinates nearest to the point. Vertices within `tolerance` are merged, and
+// pieces that are thinner than it are removed. New crossings caused by this rounding are split
+// again; throws Error(ErrorKind::domain) if some remain.
+//
+// With SplitAt::given_vertices nothing changes if a new vertex is required.
+//
+// The vertices of triangles must be welded and the triangles must have an area. New vertices follow
+// the given ones. The result does not depend on the number of threads. Takes O(n log n) time if
+// triangles meet few others.
+ArrangementSummary arrange(Triangulation& surface, double tolerance, SplitAt split_at,
+                           std::vector<CoveredTriangle>& covered);
+
+}  // namespace pnpbs
