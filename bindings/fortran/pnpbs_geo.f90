@@ -81,15 +81,20 @@ contains
   !>               kept
   !>   unit        optional: 'm' or 'km'; default: the unit of the projection, mostly metres
   !>   tag_field   optional: the attribute that becomes the tag; default: all tags are 1
-  subroutine geo_read(self, path, layer, projection, unit, tag_field, stat, errmsg)
+  !>   region_field  optional: the attribute of polygons that becomes the tag of the elements in
+  !>                 them: an integer as it is, 0 for none; if other values occur, all are numbered
+  !>                 from 1 in sorted order and named; default: no regions
+  subroutine geo_read(self, path, layer, projection, unit, tag_field, region_field, stat, errmsg)
     class(pnpbs_geo_shapes), intent(inout) :: self
     character(len=*), intent(in) :: path
     character(len=*), intent(in), optional :: layer, projection, unit, tag_field
+    character(len=*), intent(in), optional :: region_field
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int) :: status
-    status = c_geo_read(c_text(path), given_text(layer), given_text(projection), &
-                        given_text(unit), given_text(tag_field), self%c)
+    status = c_geo_read_regions(c_text(path), given_text(layer), given_text(projection), &
+                                given_text(unit), given_text(tag_field), &
+                                given_text(region_field), self%c)
     call conclude_geo('read', status, stat, errmsg)
   end subroutine
 

@@ -58,6 +58,16 @@ module pnpbs_geo_c
       integer(c_int) :: c_geo_read
     end function
 
+    function c_geo_read_regions(path, layer, projection, unit, tag_field, region_field, shapes) &
+      bind(C, name="pnpbs_geo_read_regions")
+      import
+      implicit none
+      character(kind=c_char), intent(in) :: path(*), layer(*), projection(*), unit(*), tag_field(*)
+      character(kind=c_char), intent(in) :: region_field(*)
+      type(c_ptr), intent(out) :: shapes
+      integer(c_int) :: c_geo_read_regions
+    end function
+
     function c_geo_destroy(shapes) bind(C, name="pnpbs_geo_destroy")
       import
       implicit none

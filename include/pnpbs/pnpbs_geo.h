@@ -80,6 +80,21 @@ PNPBS_API pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const
                                       const char *unit, const char *tag_field,
                                       pnpbs_geo_shapes *shapes);
 
+/** Reads one layer as pnpbs_geo_read does, and makes its polygons regions of the domain
+ *  (pnpbs_domain_add_region): the elements in a polygon get the value that it has in a field.
+ *  Local. Errors as of pnpbs_geo_read; PNPBS_ERROR_FILE for a polygon
+ *  without a value, or with an integer of more than 32 bits; PNPBS_ERROR_DOMAIN with both features
+ *  and the point where polygons overlap or have a gap below 1e-6 of the extent; PNPBS_ERROR_ARGUMENT on a sphere.
+ *  @param[in] region_field  the attribute that becomes the tag of elements: integers unchanged, 0
+ *                           for no region; if other values occur, all as 1, 2 and so on in sorted
+ *                           order, with their names for dimension 2 (pnpbs_domain_get_tag_name);
+ *                           NULL: as pnpbs_geo_read
+ *  @param[out] shapes       the new handle; NULL on failure */
+PNPBS_API pnpbs_status pnpbs_geo_read_regions(const char *path, const char *layer,
+                                              const char *projection, const char *unit,
+                                              const char *tag_field, const char *region_field,
+                                              pnpbs_geo_shapes *shapes);
+
 /** Destroys the handle and sets it to NULL; accepts NULL. What was added to domains stays there.
  *  Local. */
 PNPBS_API pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);

@@ -25,6 +25,8 @@ from markdown import names_cell, table, wrapped
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOTE = "<!-- Made by scripts/reference/make_reference.py from the sources: change those. -->\n"
+# Functions of C, and those that have further arguments, which are optional in the languages.
+EXTENDED = {"pnpbs_geo_read": "pnpbs_geo_read_regions"}
 
 
 class Sources:
@@ -54,7 +56,9 @@ class Sources:
 
     def underlying(self, name):
         """Returns the C functions that the languages call: the function itself, or those that an
-        inline function of the header calls."""
+        inline function of the header calls, or the one that has more arguments."""
+        if name in EXTENDED:
+            return [EXTENDED[name]]
         entry = self.functions[name]
         if not entry.declaration.startswith("static inline"):
             return [name]

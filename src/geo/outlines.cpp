@@ -386,7 +386,8 @@ class EdgeSorter {
                                : "features " + std::to_string(a.feature) + " and " +
                                      std::to_string(b.feature) + " overlap";
     throw Error(ErrorKind::domain, features + ", on the same side of the edge from " +
-                                       where_(a.low) + " to " + where_(a.high));
+                                       where_(a.low) + " to " + where_(a.high) +
+                                       ": unite them, or subtract one from the other");
   }
 
   const WordsFor& where_;

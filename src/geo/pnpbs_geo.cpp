@@ -212,12 +212,18 @@ const char* pnpbs_geo_build_info(void) {
 
 pnpbs_status pnpbs_geo_read(const char* path, const char* layer, const char* projection,
                             const char* unit, const char* tag_field, pnpbs_geo_shapes* shapes) {
+  return pnpbs_geo_read_regions(path, layer, projection, unit, tag_field, nullptr, shapes);
+}
+
+pnpbs_status pnpbs_geo_read_regions(const char* path, const char* layer, const char* projection,
+                                    const char* unit, const char* tag_field,
+                                    const char* region_field, pnpbs_geo_shapes* shapes) {
   return guarded([&] {
     require_pointer(shapes, "shapes");
     *shapes = nullptr;
     require_pointer(path, "path");
-    const Request request{path, text_of(layer), text_of(projection), text_of(unit),
-                          text_of(tag_field)};
+    const Request request{path,          text_of(layer),     text_of(projection),
+                          text_of(unit), text_of(tag_field), text_of(region_field)};
     *shapes = registry().add(std::make_shared<Object>(request));
   });
 }

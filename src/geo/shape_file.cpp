@@ -5,11 +5,13 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/extension.hpp"
@@ -91,24 +93,41 @@ OGRLayerH layer_of(GDALDatasetH dataset, const std::string& path, const std::str
 }
 
 // ------------------------------------------------------------------ tags -----------------------
-// The tags of features, from a field of the layer.
-class TagField {
+// A field of a layer, whose values are tags.
+class Field {
  public:
-  TagField(OGRLayerH layer, const std::string& name, LayerShapes& shapes)
-      : name_(name), shapes_(shapes) {
-    if (name.empty()) return;
+  Field(OGRLayerH layer, std::string name, const LayerShapes& shapes)
+      : name_(std::move(name)), shapes_(shapes) {
+    if (name_.empty()) return;
     const OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
-    index_ = OGR_FD_GetFieldIndex(definition, name.c_str());
+    index_ = OGR_FD_GetFieldIndex(definition, name_.c_str());
     if (index_ < 0)
-      reject_file(shapes.name + " has no field '" + name + "'; it has: " + fields_of(definition));
-    const OGRFieldType type = OGR_Fld_GetType(OGR_FD_GetFieldDefn(definition, index_));
-    is_number_ = type == OFTInteger || type == OFTInteger64;
+      reject_file(shapes.name + " has no field '" + name_ + "'; it has: " + fields_of(definition));
+    type_ = OGR_Fld_GetType(OGR_FD_GetFieldDefn(definition, index_));
   }
 
-  std::int32_t of(OGRFeatureH feature) {
-    if (name_.empty()) return 1;
-    if (!OGR_F_IsFieldSetAndNotNull(feature, index_)) reject(feature, "has no value");
-    return is_number_ ? number_of(feature) : number_of_text(feature);
+  explicit operator bool() const { return !name_.empty(); }
+  bool has_integers() const { return type_ == OFTInteger || type_ == OFTInteger64; }
+  bool has_numbers() const { return has_integers() || type_ == OFTReal; }
+
+  GIntBig integer_of(OGRFeatureH feature) const {
+    require_value(feature);
+    return OGR_F_GetFieldAsInteger64(feature, index_);
+  }
+  double number_of(OGRFeatureH feature) const {
+    require_value(feature);
+    return OGR_F_GetFieldAsDouble(feature, index_);
+  }
+  std::string text_of(OGRFeatureH feature) const {
+    require_value(feature);
+    const std::string text = OGR_F_GetFieldAsString(feature, index_);
+    if (text.empty()) reject(feature, "is empty");
+    return text;
+  }
+
+  [[noreturn]] void reject(OGRFeatureH feature, const std::string& what) const {
+    reject_file(shapes_.name + ": field '" + name_ + "' of feature " +
+                std::to_string(OGR_F_GetFID(feature)) + " " + what);
   }
 
  private:
@@ -119,34 +138,89 @@ class TagField {
     return names.empty() ? "none" : list_text(names, 20);
   }
 
-  [[noreturn]] void reject(OGRFeatureH feature, const std::string& what) const {
-    reject_file(shapes_.name + ": field '" + name_ + "' of feature " +
-                std::to_string(OGR_F_GetFID(feature)) + " " + what);
+  void require_value(OGRFeatureH feature) const {
+    if (!OGR_F_IsFieldSetAndNotNull(feature, index_)) reject(feature, "has no value");
   }
 
+  std::string name_;
+  const LayerShapes& shapes_;
+  int index_ = -1;
+  OGRFieldType type_ = OFTString;
+};
+
+using TagLimits = std::numeric_limits<std::int32_t>;
+
+// The tags of features, from a field of the layer.
+class TagField {
+ public:
+  TagField(OGRLayerH layer, const std::string& name, LayerShapes& shapes)
+      : field_(layer, name, shapes), shapes_(shapes) {}
+
+  std::int32_t of(OGRFeatureH feature) {
+    if (!field_) return 1;
+    return field_.has_integers() ? number_of(feature) : number_of_text(feature);
+  }
+
+ private:
   std::int32_t number_of(OGRFeatureH feature) const {
-    const GIntBig value = OGR_F_GetFieldAsInteger64(feature, index_);
-    using Limits = std::numeric_limits<std::int32_t>;
-    if (value == 0 || value < Limits::min() || value > Limits::max())
-      reject(feature,
-             "is " + std::to_string(value) + ": a tag is an integer of 32 bits other than 0");
+    const GIntBig value = field_.integer_of(feature);
+    if (value == 0 || value < TagLimits::min() || value > TagLimits::max())
+      field_.reject(
+          feature, "is " + std::to_string(value) + ": a tag is an integer of 32 bits other than 0");
     return static_cast<std::int32_t>(value);
   }
 
   std::int32_t number_of_text(OGRFeatureH feature) {
-    const std::string text = OGR_F_GetFieldAsString(feature, index_);
-    if (text.empty()) reject(feature, "is empty");
+    const std::string text = field_.text_of(feature);
     const auto next = static_cast<std::int32_t>(numbers_.size() + 1);
     const auto [found, is_new] = numbers_.try_emplace(text, next);
     if (is_new) shapes_.tag_names[next] = text;
     return found->second;
   }
 
-  std::string name_;
+  Field field_;
   LayerShapes& shapes_;
-  int index_ = -1;
-  bool is_number_ = false;
   std::map<std::string, std::int32_t> numbers_;
+};
+
+// The regions of features, from a field of the layer.
+class RegionField {
+ public:
+  RegionField(OGRLayerH layer, const std::string& name, LayerShapes& shapes)
+      : field_(layer, name, shapes), shapes_(shapes), are_tags_(field_.has_numbers()) {}
+
+  explicit operator bool() const { return static_cast<bool>(field_); }
+
+  void take(OGRFeatureH feature) {
+    // Formats without a type for integers store them as real numbers.
+    const double number = field_.has_numbers() ? field_.number_of(feature) : 0;
+    const bool fits = number >= TagLimits::min() && number <= TagLimits::max();
+    if (field_.has_integers() && !fits)
+      field_.reject(feature, "is " + std::to_string(field_.integer_of(feature)) +
+                                 ": the number of a region is an integer of 32 bits");
+    are_tags_ = are_tags_ && fits && number == std::trunc(number);
+    values_[OGR_F_GetFID(feature)] = {number, field_.text_of(feature)};
+  }
+
+  // Stores the regions of the features that were taken.
+  void number_regions() {
+    std::map<Value, std::int32_t> numbers;
+    for (const auto& [feature, value] : values_) numbers[value] = 0;
+    std::int32_t count = 0;
+    for (auto& [value, number] : numbers) {
+      number = are_tags_ ? static_cast<std::int32_t>(value.first) : ++count;
+      if (!are_tags_) shapes_.region_names[number] = value.second;
+    }
+    for (const auto& [feature, value] : values_) shapes_.regions[feature] = numbers.at(value);
+  }
+
+ private:
+  using Value = std::pair<double, std::string>;  // number, or 0 if the field has texts; text
+
+  Field field_;
+  LayerShapes& shapes_;
+  bool are_tags_;
+  std::map<std::int64_t, Value> values_;
 };
 
 // ------------------------------------------------------------------ geometry -------------------
@@ -155,15 +229,22 @@ class GeometryReader {
  public:
   explicit GeometryReader(LayerShapes& shapes) : shapes_(shapes) {}
 
-  // Adds a geometry. GDAL approximates curves by straight segments.
-  void read(OGRGeometryH geometry, std::int64_t feature, std::int32_t tag) {
+  // Adds a geometry, and returns whether it has polygons. GDAL approximates curves by straight
+  // segments.
+  bool read(OGRGeometryH geometry, std::int64_t feature, std::int32_t tag) {
     feature_ = feature;
     tag_ = tag;
     has_height_ = has_height_ || OGR_G_Is3D(geometry);
-    if (!OGR_G_HasCurveGeometry(geometry, TRUE)) return add(geometry);
-    const OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, nullptr);
-    add(linear);
-    OGR_G_DestroyGeometry(linear);
+    const std::ptrdiff_t before = std::ssize(shapes_.paths);
+    if (OGR_G_HasCurveGeometry(geometry, TRUE)) {
+      const OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, nullptr);
+      add(linear);
+      OGR_G_DestroyGeometry(linear);
+    } else {
+      add(geometry);
+    }
+    return std::any_of(shapes_.paths.begin() + before, shapes_.paths.end(),
+                       [](const Path& path) { return path.kind != PathKind::line; });
   }
 
   bool has_height() const { return has_height_; }
@@ -220,9 +301,10 @@ class GeometryReader {
   bool has_height_ = false;
 };
 
-void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& messages,
-                   LayerShapes& shapes) {
+void read_features(OGRLayerH layer, const std::string& tag_field, const std::string& region_field,
+                   GdalMessages& messages, LayerShapes& shapes) {
   TagField tags(layer, tag_field, shapes);
+  RegionField regions(layer, region_field, shapes);
   GeometryReader reader(shapes);
   std::int64_t features = 0, without_shape = 0;
   OGR_L_ResetReading(layer);
@@ -231,9 +313,10 @@ void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& 
     const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
     if (!geometry || OGR_G_IsEmpty(geometry))
       ++without_shape;
-    else
-      reader.read(geometry, OGR_F_GetFID(feature.get()), tags.of(feature.get()));
+    else if (reader.read(geometry, OGR_F_GetFID(feature.get()), tags.of(feature.get())) && regions)
+      regions.take(feature.get());
   }
+  regions.number_regions();
   // GDAL returns no feature at the end of the layer and also after a failure.
   if (messages.failed())
     reject_file("cannot read " + shapes.name + " to its end; features read: " +
@@ -254,7 +337,7 @@ void read_features(OGRLayerH layer, const std::string& tag_field, GdalMessages& 
 }  // namespace
 
 LayerShapes read_layer(const std::string& path, const std::string& layer,
-                       const std::string& tag_field) {
+                       const std::string& tag_field, const std::string& region_field) {
   GdalMessages messages;
   const Dataset dataset = open_file(path, messages);
   const OGRLayerH chosen = layer_of(dataset.get(), path, layer);
@@ -263,7 +346,7 @@ LayerShapes read_layer(const std::string& path, const std::string& layer,
   if (const OGRSpatialReferenceH system = OGR_L_GetSpatialRef(chosen))
     shapes.system = ReferenceSystem::copy_of(system);
   messages.forget();
-  read_features(chosen, tag_field, messages, shapes);
+  read_features(chosen, tag_field, region_field, messages, shapes);
   return shapes;
 }
 

@@ -73,14 +73,19 @@ struct LayerShapes {
   std::vector<Path> paths;
   std::vector<Spot> spots;
   std::map<std::int32_t, std::string> tag_names;
+  // Region of the elements in the polygons of each feature, 0 for none, and names of regions. Empty
+  // without a region field.
+  std::map<std::int64_t, std::int32_t> regions;
+  std::map<std::int32_t, std::string> region_names;
   ReferenceSystem system;  // empty if the file names none
   std::vector<Note> notes;
 };
 
 // Reads a layer; its name may be empty if the file has only one. Tags are the values of
 // `tag_field`: integers as they are, texts numbered from 1 and named. Without a field they are 1.
-// Throws Error.
+// Regions are the values that polygons have in `region_field`: integers as they are, others
+// numbered from 1 in sorted order and named. Throws Error.
 LayerShapes read_layer(const std::string& path, const std::string& layer,
-                       const std::string& tag_field);
+                       const std::string& tag_field, const std::string& region_field);
 
 }  // namespace pnpbs::geo

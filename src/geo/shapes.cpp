@@ -50,6 +50,11 @@ constexpr double scale_note_threshold = 0.02;
 // shows the whole layer is off by about a pixel. [extent of the layer]
 constexpr double follow_tolerance = 1e-3;
 
+// Advice for neighbours that almost touch.
+constexpr const char* same_vertices =
+    "give the same vertices to the edge between them "
+    "(docs/guide/shapes.md, 'Neighbours that do not fit')";
+
 double extent_of(const std::vector<Point<2>>& points) {
   Point<2> low = points.front(), high = low;
   for (const Point<2>& point : points)
@@ -63,9 +68,10 @@ double extent_of(const std::vector<Point<2>>& points) {
 }  // namespace
 
 Shapes::Shapes(const Request& request)
-    : layer_(read_layer(request.path, request.layer, request.tag_field)),
+    : layer_(read_layer(request.path, request.layer, request.tag_field, request.region_field)),
       projection_(layer_.system, all_points(layer_), request.projection, request.unit) {
   project();
+  if (!request.region_field.empty()) find_regions();
   take_notes();
 }
 
@@ -105,8 +111,7 @@ void Shapes::project() {
         NoteCode::nearly_touching,
         "features " + std::to_string(miss->feature) + " and " + std::to_string(miss->other) +
             " almost touch at " + point_text(given.points()[miss->place]) +
-            " (and maybe elsewhere): if they are neighbours, give the same vertices to the edge "
-            "between them",
+            " (and maybe elsewhere): if they are neighbours, " + same_vertices,
         2);
   std::vector<Point<2>> projected = given.points();
   if (const auto fault = projection_.project(projected))
@@ -134,6 +139,30 @@ void Shapes::project() {
   if (on_sphere()) outlines_.leave_out_shared_edges_outside(places_);
   lines_along_boundary_ =
       retag_open_boundaries(outlines_.curves, places_, follow_tolerance * extent);
+}
+
+void Shapes::find_regions() {
+  if (on_sphere())
+    throw Error(
+        ErrorKind::argument,
+        "argument region_field: on a sphere polygons cannot be regions; add a point to each "
+        "region instead (pnpbs_domain_add_region, --region)");
+  if (layer_.regions.empty())
+    throw Error(ErrorKind::domain, layer_.name + " has no polygons, which regions consist of");
+  const auto where = [&](const Point<2>& point) { return with_degrees(point_text(point)); };
+  RegionPoints found = region_points_of(outlines_.curves, routes_, places_, layer_.regions, where);
+  region_points_ = std::move(found.points);
+  if (const auto& gap = found.gap) {
+    const MessageText have_gap = "features " + std::to_string(gap->feature) + " and " +
+                                 std::to_string(gap->other) + " have a gap of " +
+                                 rounded_text(gap->width) + " between them at " +
+                                 where(gap->point) + " (and maybe elsewhere)";
+    if (gap->width < nearly_on_it * extent_of(places_))
+      throw Error(ErrorKind::domain, have_gap + ": " + same_vertices);
+    layer_.notes.emplace_back(
+        NoteCode::nearly_touching,
+        have_gap + ", which is outside of the domain: if they are neighbours, " + same_vertices, 2);
+  }
 }
 
 void Shapes::take_notes() {
@@ -208,7 +237,11 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
                                          ", expected degrees from 0 to 180");
   for (const auto& [tag, name] : layer_.tag_names)
     check(pnpbs_domain_set_tag_name(domain, 1, tag, name.c_str()), context);
+  for (const auto& [tag, name] : layer_.region_names)
+    check(pnpbs_domain_set_tag_name(domain, 2, tag, name.c_str()), context);
   add_curves(domain, context, corner_angle);
+  for (const RegionPoint& region : region_points_)
+    check(pnpbs_domain_add_region(domain, region.point.data(), region.tag), context);
   std::vector<Point<2>> points;
   std::vector<std::int32_t> tags;
   for (const Spot& spot : layer_.spots) {
@@ -354,6 +387,9 @@ std::string Shapes::advice_on_crossing(const NamedPoint& point) const {
   const std::vector<const Route*> routes = routes_at(point);
   if (std::ranges::any_of(routes, [](const Route* at) { return at->kind == PathKind::line; }))
     return "Give lines a common vertex where they cross: docs/guide/shapes.md, 'Lines that cross'";
+  if (!layer_.regions.empty() && routes.size() > 1)
+    return "Regions must not overlap: subtract one polygon from the other, or give both the same "
+           "vertices on their common edge: docs/guide/shapes.md, 'Neighbours that do not fit'";
   if (are_neighbours(routes))
     return "Give neighbouring polygons the same vertices on their common edge: "
            "docs/guide/shapes.md, 'Neighbours that do not fit'";

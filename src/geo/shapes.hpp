@@ -9,14 +9,15 @@
 #include "base/message_text.hpp"
 #include "geo/outlines.hpp"
 #include "geo/projection.hpp"
+#include "geo/region_points.hpp"
 #include "geo/shape_file.hpp"
 #include "pnpbs/pnpbs.h"
 
 namespace pnpbs::geo {
 
-// The arguments of pnpbs_geo_read().
+// The arguments of pnpbs_geo_read_regions().
 struct Request {
-  std::string path, layer, projection, unit, tag_field;
+  std::string path, layer, projection, unit, tag_field, region_field;
 };
 
 // The projected shapes of a layer.
@@ -50,6 +51,7 @@ class Shapes {
   bool are_neighbours(const std::vector<const Route*>& routes) const;
   std::string advice_on_crossing(const NamedPoint& point) const;
   void project();
+  void find_regions();
   void take_notes();
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
   std::vector<double> coordinates_of(std::vector<Point<2>> points) const;
@@ -65,6 +67,7 @@ class Shapes {
   std::vector<Route> routes_;  // what the file has
   Outlines outlines_;
   std::int64_t lines_along_boundary_ = 0;
+  std::vector<RegionPoint> region_points_;
 };
 
 }  // namespace pnpbs::geo

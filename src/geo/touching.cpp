@@ -11,10 +11,9 @@ namespace {
 
 using Place = std::int64_t;
 
-// Distances at which a vertex is on a segment, and nearly on it. If the layer extends over 10
-// degrees, they are a millimetre, which covers rounding, and a metre, which covers vertices with
-// few digits or drawn by hand. [extent of the layer]
-constexpr double on_it = 1e-9, nearly_on_it = 1e-6;
+// Distance at which a vertex is on a segment. If the layer extends over 10 degrees, it is a
+// millimetre, which covers rounding. [extent of the layer]
+constexpr double on_it = 1e-9;
 
 // Width up to which an outline encloses nothing. [length]
 constexpr double spike = 1e-3;

@@ -15,6 +15,10 @@
 
 namespace pnpbs::geo {
 
+// Distance at which a vertex is nearly on a segment. If the layer extends over 10 degrees, it is a
+// metre, which covers vertices with few digits or drawn by hand. [extent of the layer]
+inline constexpr double nearly_on_it = 1e-6;
+
 // A vertex that is nearly on a segment of another feature.
 struct NearMiss {
   std::int64_t place;

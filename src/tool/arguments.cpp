@@ -320,7 +320,13 @@ void add_geo(CLI::App& app, Arguments& arguments) {
   app.add_option("--layer", arguments.layer, "the layer to read, for files with several")
       ->type_name("NAME")
       ->group(group);
-  app.add_option("--tag-field", arguments.tag_field, "the attribute that becomes the tag")
+  app.add_option("--tag-field", arguments.tag_field,
+                 "the attribute that becomes the tag of curves and nodes")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--region-field", arguments.region_field,
+                 "the attribute of polygons that becomes the tag of the elements in\n"
+                 "them")
       ->type_name("NAME")
       ->group(group);
 }

@@ -42,7 +42,7 @@ GeoLibrary::GeoLibrary() {
   void* const library = open_library();
   find(library, build_info, "pnpbs_geo_build_info");
   find(library, last_error, "pnpbs_geo_last_error");
-  find(library, read, "pnpbs_geo_read");
+  find(library, read_regions, "pnpbs_geo_read_regions");
   find(library, destroy, "pnpbs_geo_destroy");
   find(library, add_to_domain, "pnpbs_geo_add_to_domain");
   find(library, explain, "pnpbs_geo_explain");
@@ -82,7 +82,8 @@ bool GeoFile::is_meant_by(const Arguments& arguments) {
   for (const auto& [name, value] :
        {std::pair{"--sphere", std::string(arguments.sphere ? "given" : "")},
         std::pair{"--projection", arguments.projection}, std::pair{"--layer", arguments.layer},
-        std::pair{"--tag-field", arguments.tag_field}})
+        std::pair{"--tag-field", arguments.tag_field},
+        std::pair{"--region-field", arguments.region_field}})
     if (!value.empty()) option = name;
   const bool is_other =
       arguments.domain == "-" || arguments.domain.ends_with(')') || is_in(ending, other_endings);
@@ -100,7 +101,8 @@ GeoFile::GeoFile(const Arguments& arguments)
       layer_(arguments.layer),
       projection_(arguments.sphere ? projection_of(*arguments.sphere) : arguments.projection),
       unit_(arguments.sphere ? "" : arguments.unit),
-      tag_field_(arguments.tag_field) {}
+      tag_field_(arguments.tag_field),
+      region_field_(arguments.region_field) {}
 
 GeoFile::~GeoFile() {
   if (shapes_) library_->destroy(&shapes_);
@@ -120,8 +122,8 @@ void GeoFile::check(pnpbs_status status) const {
 
 void GeoFile::read() {
   library_ = std::make_unique<GeoLibrary>();
-  check(library_->read(path_.c_str(), or_null(layer_), or_null(projection_), or_null(unit_),
-                       or_null(tag_field_), &shapes_));
+  check(library_->read_regions(path_.c_str(), or_null(layer_), or_null(projection_), or_null(unit_),
+                               or_null(tag_field_), or_null(region_field_), &shapes_));
 }
 
 void GeoFile::add_to(pnpbs_domain domain, pnpbs_context context, double corner_angle) const {

@@ -20,7 +20,7 @@ struct GeoLibrary {
 #define PNPBS_TOOL_FUNCTION(name) decltype(&pnpbs_geo_##name) name
   PNPBS_TOOL_FUNCTION(build_info);
   PNPBS_TOOL_FUNCTION(last_error);
-  PNPBS_TOOL_FUNCTION(read);
+  PNPBS_TOOL_FUNCTION(read_regions);
   PNPBS_TOOL_FUNCTION(destroy);
   PNPBS_TOOL_FUNCTION(add_to_domain);
   PNPBS_TOOL_FUNCTION(explain);
@@ -67,7 +67,7 @@ class GeoFile {
  private:
   void check(pnpbs_status status) const;
 
-  std::string path_, layer_, projection_, unit_, tag_field_;
+  std::string path_, layer_, projection_, unit_, tag_field_, region_field_;
   std::unique_ptr<GeoLibrary> library_;
   pnpbs_geo_shapes shapes_ = nullptr;
 };

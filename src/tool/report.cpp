@@ -72,6 +72,7 @@ Json cell_bands_of(const Statistics& statistics) {
 void describe(const GeoFile& geo, const Arguments& arguments, Json& report) {
   if (!arguments.layer.empty()) report["layer"] = arguments.layer;
   if (!arguments.tag_field.empty()) report["tag_field"] = arguments.tag_field;
+  if (!arguments.region_field.empty()) report["region_field"] = arguments.region_field;
   const GeoFile::Projection projection = geo.projection();
   if (projection.name.empty()) return;
   report["projection"] = {{"name", projection.name},

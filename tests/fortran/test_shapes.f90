@@ -88,6 +88,14 @@ contains
     call placement%destroy
     call domain%destroy
     call shapes%destroy
+    call shapes%read(path, region_field='name')
+    call domain%create(context)
+    call shapes%add_to_domain(context, domain)
+    call domain%tag_name_count(names)
+    call domain%get_tag_name(1, dim, tag, name)
+    call expect(names == 1 .and. dim == 2 .and. tag == 1 .and. name == 'shore', 'name of a region')
+    call domain%destroy
+    call shapes%destroy
     call shapes%counts(vertices, stat=stat)
     call expect(stat == PNPBS_ERROR_HANDLE, 'destroyed shapes')
     call expect(shapes%explain('as it is (1, 2)') == 'as it is (1, 2)', 'message without shapes')

@@ -55,6 +55,23 @@ class Shapes(unittest.TestCase):
         with self.assertRaises(PNPBSError):
             shapes.to_degrees(SQUARE)
 
+    def test_regions(self):
+        squares = [(18, "sand"), (19, "clay")]
+        self.path.write_text(json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"soil": soil}, "geometry": {
+                "type": "Polygon",
+                "coordinates": [[[x, 54], [x + 1, 54], [x + 1, 55], [x, 55], [x, 54]]]}}
+            for x, soil in squares]}))
+        with pnpbs.Context() as context, pnpbs.Shapes(self.path, projection="none",
+                                                      region_field="soil") as shapes:
+            domain = shapes.add_to(pnpbs.Domain(context))
+            self.assertEqual(domain.tag_names(), {(2, 1): "clay", (2, 2): "sand"})
+            placement = pnpbs.Placement(domain).set_spacing(0.2)
+            placement.run()
+            middles = placement.nodes().points[placement.triangles()].mean(axis=1)
+            np.testing.assert_array_equal(placement.element_tags(),
+                                          np.where(middles[:, 0] > 19, 1, 2))
+
     def test_nodes_on_a_sphere(self):
         with pnpbs.Context() as context, pnpbs.Shapes(self.path,
                                                       projection="sphere(100,-20)") as shapes:

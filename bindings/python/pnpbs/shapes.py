@@ -29,6 +29,8 @@ const char *pnpbs_geo_last_error(void);
 const char *pnpbs_geo_build_info(void);
 pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const char *projection,
     const char *unit, const char *tag_field, pnpbs_geo_shapes *shapes);
+pnpbs_status pnpbs_geo_read_regions(const char *path, const char *layer, const char *projection,
+    const char *unit, const char *tag_field, const char *region_field, pnpbs_geo_shapes *shapes);
 pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);
 pnpbs_status pnpbs_geo_add_to_domain(pnpbs_geo_shapes shapes, pnpbs_context context,
     pnpbs_domain domain, double corner_angle);
@@ -165,20 +167,26 @@ class Shapes(Handle):
       coordinates are kept.
     - `unit`: "m" or "km"; None for the unit of the projection.
     - `tag_field`: the attribute that becomes the tag; None for the tag 1.
+    - `region_field`: the attribute of polygons that becomes the tag of the elements in them: an
+      integer as it is, 0 for none; if other values occur, all are numbered from 1 in sorted order
+      and named (`Domain.tag_names`). None for no regions.
 
-    Raises `Status.ERROR_FILE` if the file, layer or field cannot be read, `Status.ERROR_ARGUMENT`
-    for an invalid projection or unit, and `Status.ERROR_DOMAIN` if polygons overlap.
+    Raises `Status.ERROR_FILE` if the file, layer or field cannot be read or a polygon has no region,
+    `Status.ERROR_ARGUMENT` for an invalid projection or unit, and `Status.ERROR_DOMAIN` if polygons
+    overlap, or regions have a tiny gap between them.
 
         with pnpbs.Shapes("coast.geojson", unit="km") as shapes:
             shapes.add_to(domain, corner_angle=45)
     """
 
     def __init__(self, path: Path, layer: Optional[str] = None, projection: Optional[Path] = None,
-                 unit: Optional[str] = None, tag_field: Optional[str] = None) -> None:
+                 unit: Optional[str] = None, tag_field: Optional[str] = None,
+                 region_field: Optional[str] = None) -> None:
         super().__init__()
         handle = ctypes.c_void_p()
-        _check(_library().pnpbs_geo_read(os.fsencode(path), _text(layer), _text(projection),
-                                         _text(unit), _text(tag_field), ctypes.byref(handle)))
+        _check(_library().pnpbs_geo_read_regions(
+            os.fsencode(path), _text(layer), _text(projection), _text(unit), _text(tag_field),
+            _text(region_field), ctypes.byref(handle)))
         self._handle = handle.value
 
     def close(self) -> None:

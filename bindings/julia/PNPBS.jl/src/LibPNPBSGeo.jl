@@ -53,6 +53,11 @@ pnpbs_geo_read(path, layer, projection, unit, tag_field, shapes) =
         path::Cstring, layer::Cstring, projection::Cstring, unit::Cstring, tag_field::Cstring,
         shapes::Ptr{pnpbs_geo_shapes})::pnpbs_status
 
+pnpbs_geo_read_regions(path, layer, projection, unit, tag_field, region_field, shapes) =
+    @ccall $(symbol(:pnpbs_geo_read_regions))(
+        path::Cstring, layer::Cstring, projection::Cstring, unit::Cstring, tag_field::Cstring,
+        region_field::Cstring, shapes::Ptr{pnpbs_geo_shapes})::pnpbs_status
+
 pnpbs_geo_destroy(shapes) =
     @ccall $(symbol(:pnpbs_geo_destroy))(shapes::Ptr{pnpbs_geo_shapes})::pnpbs_status
 

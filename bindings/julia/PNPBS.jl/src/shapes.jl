@@ -2,7 +2,8 @@
 # Geographic shapes and grids: GeoJSON, shapefiles and other formats that GDAL reads, projected.
 
 """
-    Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing)
+    Shapes(path; layer = nothing, projection = nothing, unit = nothing, tag_field = nothing,
+           region_field = nothing)
     Shapes(f, path; ...)
 
 Reads one layer of a file that GDAL reads, such as GeoJSON, a shapefile or GeoPackage, and projects
@@ -18,9 +19,13 @@ become fixed nodes. `pnpbs_geo.h` has the details.
   other coordinates are kept.
 - `unit`: `"m"` or `"km"`; `nothing` for the unit of the projection.
 - `tag_field`: the attribute that becomes the tag; `nothing` for the tag 1.
+- `region_field`: the attribute of polygons that becomes the tag of the elements in them: an integer
+  as it is, 0 for none; if other values occur, all are numbered from 1 in sorted order and named.
+  `nothing` for no regions.
 
-Throws `:error_file` if the file, layer or field cannot be read, `:error_argument` for an invalid
-projection or unit, and `:error_domain` if polygons overlap.
+Throws `:error_file` if the file, layer or field cannot be read or a polygon has no region,
+`:error_argument` for an invalid projection or unit, and `:error_domain` if polygons overlap, or
+regions have a tiny gap between them.
 
 Call `close` when the shapes are no longer needed. The second form calls `f(shapes)` and closes
 them, as `open` does with files.
@@ -36,11 +41,12 @@ mutable struct Shapes
 end
 
 function Shapes(path::AbstractString; layer = nothing, projection = nothing, unit = nothing,
-                tag_field = nothing)
+                tag_field = nothing, region_field = nothing)
     handle = Ref{LibPNPBSGeo.pnpbs_geo_shapes}(C_NULL)
     # An empty text stands for an omitted argument in C.
-    check_geo(LibPNPBSGeo.pnpbs_geo_read(path, something(layer, ""), something(projection, ""),
-                                         something(unit, ""), something(tag_field, ""), handle))
+    check_geo(LibPNPBSGeo.pnpbs_geo_read_regions(
+        path, something(layer, ""), something(projection, ""), something(unit, ""),
+        something(tag_field, ""), something(region_field, ""), handle))
     return Shapes(handle[])
 end
 

@@ -43,6 +43,10 @@ function test_shapes_of(folder)
         close(shapes)
         @test repr(shapes) == "PNPBS.Shapes(closed)"
         @test fails(() -> projection(shapes), :error_handle, "closed")
+        Shapes(path; region_field = "name") do regions
+            @test tag_names(add_shapes!(Domain(context), regions)) ==
+                  [(dim = 2, tag = 1, name = "shore")]
+        end
     end
     @test Shapes(shapes -> shape_counts(shapes).vertices, path) == 4
     @test fails(() -> Shapes(path; layer = "sea"), :error_file, "no layer 'sea'")
