@@ -37,6 +37,10 @@ FinishResults sweep_and_repair(
 // before the sweeps. All ranks must call it, and if one rank throws, all ranks throw.
 std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps);
 inline std::vector<EdgeBand> sweep_to_centroids(Level<3>&, std::int64_t) { return {}; }
+// Repairs bad triangles by moves of inner nodes, as sweep_and_repair() does, without a change of
+// the population. All ranks must call it, and if one rank throws, all ranks throw.
+void repair_bad_triangles(Level<2>& level);
+inline void repair_bad_triangles(Level<3>&) {}
 // Repairs obtuse triangles in at most this many rounds. All ranks must call it, and if one rank
 // throws, all ranks throw.
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds);

@@ -8,6 +8,7 @@
 #include "level/finish.hpp"
 #include "level/ghost_lists.hpp"
 #include "level/lists_and_stars.hpp"
+#include "level/plane/elements_on_boundary.hpp"
 #include "level/reach.hpp"
 #include "level/room.hpp"
 #include "level/volume/surface_level.hpp"
@@ -209,6 +210,16 @@ PopulationCounts place_first_row(Level<2>& level) {
 }
 
 PopulationCounts place_first_row(Level<3>&) { return {}; }
+
+PopulationCounts split_elements_on_boundary(Level<2>& level) {
+  const PhaseTimer timer(level.timers, Phase::population);
+  make_finish_stars(level, {});
+  PopulationChange<2> change;
+  collective_try(*level.comm, [&] { change = nodes_in_elements_on_boundary(level); });
+  return carry_out(level, std::move(change));
+}
+
+PopulationCounts split_elements_on_boundary(Level<3>&) { return {}; }
 
 template void delete_nodes(Level<2>&, const std::vector<std::int32_t>&);
 template void delete_nodes(Level<3>&, const std::vector<std::int32_t>&);

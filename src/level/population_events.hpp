@@ -33,6 +33,11 @@ PopulationCounts repair_defects(Level<3>& level);
 PopulationCounts place_first_row(Level<2>& level);
 PopulationCounts place_first_row(Level<3>& level);
 
+// Splits the elements with all nodes on the boundary by nodes at the middles of their longest inner
+// edges. Does nothing in space. All ranks must call it, and if one rank throws, all ranks throw.
+PopulationCounts split_elements_on_boundary(Level<2>& level);
+PopulationCounts split_elements_on_boundary(Level<3>& level);
+
 // Deletes nodes of this rank, including ghosts, given by ascending memory index. Local.
 template <int Dim>
 void delete_nodes(Level<Dim>& level, const std::vector<std::int32_t>& deleted);

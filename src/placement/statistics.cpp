@@ -290,6 +290,10 @@ const std::vector<StatisticRow>& statistic_table() {
           "quality.obtuse", [](P p) { return p.results().element_quality().simplex.obtuse; },
           "triangles with an angle of more than 90 degrees: their circumcentres, corners of "
           "Voronoi cells, lie outside of them")),
+      computed(integer(
+          "quality.on_boundary",
+          [](P p) { return p.results().element_quality().simplex.on_boundary; },
+          "in the plane and on spheres: triangles with all nodes on curves that bound the domain")),
       computed(real(
           "quality.irregular", [](P p) { return p.results().element_quality().irregular; },
           "share of the inner nodes that do not have six neighbours in their stars, in space 14")),

@@ -34,6 +34,8 @@ struct SimplexQuality {
   double one_percent = 0;    // 99 % of the elements have a larger quality; rounded down to 2^-16
   double min_angle = 0;      // [degrees] of tetrahedra: dihedral
   std::int64_t obtuse = 0;   // triangles with an angle above 90 degrees
+  // Triangles with all nodes on the boundary, in the plane and on a sphere. Set by Results.
+  std::int64_t on_boundary = 0;
   // Smallest angle of the elements at edges where the body itself is sharp, and smallest angle of
   // all others. [degrees] The first is 180 if there are no such elements, as in the plane and on
   // surfaces.

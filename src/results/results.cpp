@@ -11,6 +11,7 @@
 #include "level/lists_and_stars.hpp"
 #include "level/node_digest.hpp"
 #include "level/plane/closed_sphere.hpp"
+#include "level/plane/elements_on_boundary.hpp"
 #include "level/reach.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "quality/measured_nodes.hpp"
@@ -261,6 +262,7 @@ const ElementQuality& Results<Dim>::element_quality() {
   quality_ = measure_elements<Dim>(
       *comm_, {level_->nodes, embedding()}, level_->stars,
       [this](const View<double>& values) { level_->ghosts.fill(*comm_, values); });
+  quality_.simplex.on_boundary = elements_on_boundary(*level_);
   quality_.simplex.min_angle_elsewhere = quality_.simplex.min_angle;
   if constexpr (Dim == 3) {
     if (level_->geometry.kind() != GeometryKind::surface) {

@@ -58,6 +58,7 @@ class Simulation {
   bool stops_after_step(bool is_event, double fraction);
   bool stops_in_finish(double fraction);
   void place_first_row();
+  void split_elements_on_boundary();
   Outcome smooth(double fraction);
   Outcome centre_cells(double fraction);
   PopulationCounts counted(PopulationCounts change);

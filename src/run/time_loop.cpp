@@ -203,6 +203,7 @@ Outcome Simulation<Dim>::finish(double fraction) {
   if (stops_in_finish(fraction)) return Outcome::stopped;
   if (smooth(fraction) == Outcome::stopped) return Outcome::stopped;
   if (centre_cells(fraction) == Outcome::stopped) return Outcome::stopped;
+  split_elements_on_boundary();
   refresh_spacing(level_);
   return Outcome::converged;
 }
@@ -274,6 +275,18 @@ void Simulation<Dim>::place_first_row() {
   remove_crowded();
   const PopulationCounts change = counted(pnpbs::place_first_row(level_));
   if (change.inserted + change.deleted > 0) refresh_spacing(level_);
+}
+
+// Splits the elements with all nodes on the boundary, and repairs the triangles around. Such a
+// repair may make elements of this kind again, so that a round ends with the split.
+template <int Dim>
+void Simulation<Dim>::split_elements_on_boundary() {
+  if (!level_.settings.split_elements_on_boundary) return;
+  for (int round = 1; counted(pnpbs::split_elements_on_boundary(level_)).inserted > 0; ++round) {
+    if (round == method::kMaxFinishRounds) break;
+    refresh_spacing(level_);  // a new node has the d of another one
+    repair_bad_triangles(level_);
+  }
 }
 
 template <int Dim>

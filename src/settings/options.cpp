@@ -140,6 +140,9 @@ const std::vector<OptionRow>& option_table() {
       {"obtuse_rounds", T::integer, "0", nullptr, nullptr, 0, 10000, nullptr,
        "only in the plane and on spheres, for finite volumes: maximum rounds at the end that "
        "repair triangles with an angle above 89.5 degrees"},
+      {"split_elements_on_boundary", T::integer, "0", nullptr, nullptr, 0, 1, nullptr,
+       "1, only in the plane and on spheres: triangles with all nodes on the boundary are split at "
+       "the end, by nodes at the middles of their longest inner edges"},
       {"list_radius", T::real, "1.6", "1.7", nullptr, 1.5, 3, nullptr,
        "radius of the lists during the run, in desired distances"},
       {"adjacency_radius", T::real, "1.7", nullptr, nullptr, 0.5, 4, nullptr,

@@ -24,6 +24,7 @@ Settings::Settings(const Options& o)
       sweeps(o.integer("sweeps")),
       centroidal_sweeps(o.integer("centroidal_sweeps")),
       obtuse_rounds(o.integer("obtuse_rounds")),
+      split_elements_on_boundary(o.integer("split_elements_on_boundary") != 0),
       sliver_angle(o.real("sliver_angle")),
       list_radius(o.real("list_radius")),
       adjacency_radius(o.real("adjacency_radius")),

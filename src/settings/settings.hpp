@@ -44,7 +44,8 @@ struct Settings {
   RepairRule repair;
   std::int64_t centroidal_sweeps;
   std::int64_t obtuse_rounds;
-  double sliver_angle;  // degrees
+  bool split_elements_on_boundary;  // plane
+  double sliver_angle;              // degrees
   DefectRule defects;
   double list_radius, adjacency_radius;
   double growth_limit;

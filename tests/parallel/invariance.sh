@@ -140,6 +140,12 @@ compare 5 1 2 3
 compare 8 1 8 1
 require_at_least 100 inserted "the first row had few new nodes"
 require_at_least 100 deleted "the first row displaced few nodes"
+# The finish splits triangles with all nodes on the boundary. Nothing else inserts nodes.
+begin "$data/great_lakes.poly" 8 steps=0 levels=0 first_row=0 split_elements_on_boundary=1
+compare 2 1 4 1
+compare 3 2 1 2
+compare 8 1 5 1
+require_at_least 50 inserted "few triangles had all nodes on the boundary"
 begin ring 1 levels=0 effort=best
 compare 4 1 1 1
 compare 16 1 4 2

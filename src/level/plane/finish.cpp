@@ -60,7 +60,7 @@ void repair_triangles(Level<2>& level, const TriangleMeasure& measure, std::int6
 
 // Repairs the worst triangles first. A triangle that is barely acceptable may prevent the
 // improvement of a worse one beside it.
-void repair_bad_triangles(Level<2>& level) {
+void repair_on_stars(Level<2>& level) {
   const RepairRule& rule = level.settings.repair;
   repair_triangles(level, measure_by_shape(std::min(rule.worst_below, rule.bad_below)),
                    rule.rounds);
@@ -120,7 +120,7 @@ FinishResults sweep_and_repair(Level<2>& level, std::int64_t sweeps, const StopT
     });
     sweep_to_means(level, std::min(kBlock, sweeps - done));
     const bool last = done + kBlock >= sweeps;
-    if (last && repairs) repair_bad_triangles(level);
+    if (last && repairs) repair_on_stars(level);
     if (last) results.edge_bands = edge_bands(level);  // requires the stars
     for (std::int32_t i : surplus) results.counts.deleted += level.nodes.owned(i);
     if (!surplus.empty()) delete_nodes(level, surplus);
@@ -143,6 +143,12 @@ std::vector<EdgeBand> sweep_to_centroids(Level<2>& level, std::int64_t sweeps) {
                      level.map(), level.geometry.domain().embedding(), rule, proposed, allowed);
   });
   return edge_bands(level);
+}
+
+void repair_bad_triangles(Level<2>& level) {
+  make_finish_stars(level, {1});  // of two neighbours only one moves
+  const PhaseTimer timer(level.timers, Phase::sweeps);
+  repair_on_stars(level);
 }
 
 void repair_obtuse_triangles(Level<2>& level, std::int64_t rounds) {

@@ -48,6 +48,7 @@ Settings random_options(Random& random, int dim) {
   if (random.chance(0.4)) add_some(random, dim, options);
   if (dim == 2 && random.chance(0.1)) options.emplace_back("method", "paper");
   if (random.chance(0.04)) options.emplace_back("effort", "best");
+  if (dim == 2 && random.chance(0.1)) options.emplace_back("split_elements_on_boundary", "1");
   if (dim == 3 && random.chance(0.05)) options.emplace_back("resolve", "1");
   if (dim == 3 && random.chance(0.25)) options.emplace_back("conforming_rounds", "0");
   if (dim == 3 && random.chance(0.25))
