@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -21,6 +24,7 @@
 #include "geometry/volume/welding.hpp"
 #include "predicates/space.hpp"
 #include "surfaces/exact_points.hpp"
+#include "surfaces/near_contacts.hpp"
 #include "surfaces/plane_graph.hpp"
 #include "surfaces/plane_triangulation.hpp"
 #include "surfaces/thin_triangles.hpp"
@@ -33,9 +37,17 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Segment = std::array<std::int32_t, 2>;
 
-// Most times that triangles are split. Rounding moves vertices by the last digit, so that new
-// crossings are rare and short.
-constexpr int kMostRounds = 8;
+// Most times that triangles are split. Mostly one time suffices. Where surfaces lie on each other
+// up to rounding, the pieces can cross again in shorter edges.
+constexpr int kMostRounds = 40;
+
+// Distance within which a vertex lies on an edge or a triangle. [tolerance of vertices] Vertices on
+// one triangle then have different projections to its plane.
+constexpr double kOnTriangle = 0.0625;
+
+// Smallest tolerance far from the origin, where coordinates have few digits. [largest coordinate]
+// The distance within which vertices lie on triangles is then four units of the last digit.
+constexpr double kCoordinateRounding = 64 * std::numeric_limits<double>::epsilon();
 
 Corners sorted(Corners vertices) {
   std::sort(vertices.begin(), vertices.end());
@@ -54,29 +66,35 @@ void turn_around(Corners& vertices) { std::swap(vertices[1], vertices[2]); }
 // if its orientation is the opposite one.
 class ParentSets {
  public:
-  explicit ParentSets(std::size_t triangles) {
-    for (std::size_t t = 0; t < triangles; ++t) sets_.push_back({static_cast<std::int32_t>(2 * t)});
+  explicit ParentSets(std::size_t triangles) : single_(triangles) {
+    for (std::size_t t = 0; t < triangles; ++t) single_[t] = static_cast<std::int32_t>(2 * t);
   }
 
   // Set t contains triangle t alone.
-  const std::vector<std::int32_t>& members(std::int32_t set) const { return sets_[index(set)]; }
+  std::span<const std::int32_t> members(std::int32_t set) const {
+    if (index(set) < single_.size()) return {&single_[index(set)], 1};
+    return sets_[index(set) - single_.size()];
+  }
 
   // Returns the union of two sets. The orientations of `other` are reversed if `turned` is true.
   std::int32_t united(std::int32_t set, std::int32_t other, bool turned) {
-    std::vector<std::int32_t> all = members(set);
-    for (const std::int32_t member : members(other)) all.push_back(member ^ (turned ? 1 : 0));
+    const std::span<const std::int32_t> own = members(set), others = members(other);
+    std::vector<std::int32_t> all(own.begin(), own.end());
+    for (const std::int32_t member : others) all.push_back(member ^ (turned ? 1 : 0));
     std::sort(all.begin(), all.end());
     // A triangle that was folded by rounding counts once.
     all.erase(std::unique(all.begin(), all.end(),
                           [](std::int32_t a, std::int32_t b) { return a / 2 == b / 2; }),
               all.end());
-    if (all == members(set)) return set;
-    const auto [entry, is_new] = known_.try_emplace(all, static_cast<std::int32_t>(sets_.size()));
+    if (std::ranges::equal(all, own)) return set;
+    const auto [entry, is_new] =
+        known_.try_emplace(all, static_cast<std::int32_t>(single_.size() + sets_.size()));
     if (is_new) sets_.push_back(all);
     return entry->second;
   }
 
  private:
+  std::vector<std::int32_t> single_;
   std::vector<std::vector<std::int32_t>> sets_;
   std::map<std::vector<std::int32_t>, std::int32_t> known_;
 };
@@ -85,7 +103,8 @@ class ParentSets {
 struct Piece {
   Corners vertices;
   std::int32_t parents;  // index of a set
-  bool unchecked;        // false if it meets no other piece for which this is false
+  bool is_new;           // whether it is a part or was moved in the last round
+  std::int32_t before;   // its index in the last round if it is not new
 };
 
 FacetCorners<3> corners_of(const std::vector<Point<3>>& positions, const Corners& vertices) {
@@ -121,45 +140,92 @@ void unite_equal(std::vector<Piece>& pieces, ParentSets& parents) {
 
 using MeetingPair = std::array<std::int32_t, 2>;  // the lower index first
 
-// Returns the pairs of pieces that meet other than in common vertices and edges, in order.
-std::vector<MeetingPair> meeting_pairs(const std::vector<Point<3>>& positions,
-                                       const std::vector<Piece>& pieces) {
+// Where pieces meet other than in common vertices and edges, in order.
+struct Meetings {
+  NearContacts near;  // up to rounding
+  std::vector<MeetingPair> exact;
+};
+
+template <class Item>
+void sort_unique(std::vector<Item>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+// Finds where new pieces meet others.
+Meetings find_meetings(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces,
+                       double reach) {
   std::vector<Box<3>> boxes;
   boxes.reserve(pieces.size());
   for (const Piece& piece : pieces) {
-    boxes.push_back(empty_box<3>());
-    for (const std::int32_t v : piece.vertices) include(boxes.back(), positions[index(v)]);
+    Box<3> box = empty_box<3>();
+    for (const std::int32_t v : piece.vertices) include(box, positions[index(v)]);
+    boxes.push_back(widened(box, reach / 2));
   }
   const BoxTree<3> tree(boxes);
-  std::vector<MeetingPair> pairs;
+  Meetings meetings;
+  NearContactSearch search(positions, reach);
   const auto count = static_cast<std::int32_t>(pieces.size());
   for (std::int32_t p = 0; p < count; ++p) {
     const Piece& piece = pieces[index(p)];
-    if (!piece.unchecked) continue;
+    if (!piece.is_new) continue;
     const FacetCorners<3> corners = corners_of(positions, piece.vertices);
     tree.for_meeting(boxes[index(p)], [&](std::int32_t q) {
       const Piece& other = pieces[index(q)];
-      if (q == p || (other.unchecked && q < p)) return;
+      if (q == p || (other.is_new && q < p)) return;
+      if (!search.add_contacts(p, piece.vertices, q, other.vertices)) return;
       if (triangles_meet(corners, piece.vertices, corners_of(positions, other.vertices),
                          other.vertices))
-        pairs.push_back({std::min(p, q), std::max(p, q)});
+        meetings.exact.push_back({std::min(p, q), std::max(p, q)});
     });
   }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
+  meetings.near = std::move(search.contacts());
+  sort_unique(meetings.near.in_plane);
+  sort_unique(meetings.near.on_edges);
+  sort_unique(meetings.near.crossings);
+  sort_unique(meetings.near.on_triangles);
+  sort_unique(meetings.exact);
+  return meetings;
 }
 
-// Splits pieces once, where given pairs of them meet.
+// Vertices within edges, in the order of the edges and from the lower end to the higher.
+using EdgeVertices = std::vector<std::pair<Segment, std::vector<std::int32_t>>>;
+
+// Splits pieces once, where they meet.
 class Splitting {
  public:
-  Splitting(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces)
-      : points_(positions), pieces_(pieces), in_plane_(pieces.size()), split_(pieces.size(), 0) {}
+  Splitting(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces, double reach)
+      : points_(positions),
+        pieces_(pieces),
+        reach_(reach),
+        in_plane_(pieces.size()),
+        split_(pieces.size(), 0) {}
 
+  // Splits where pairs of pieces meet exactly.
   void run(const std::vector<MeetingPair>& pairs) {
     for (const MeetingPair& pair : pairs)
       for (const std::int32_t p : pair)
         for (const std::int32_t v : pieces_[index(p)].vertices) points_.use(v);
     for (const MeetingPair& pair : pairs) find_contact(pair[0], pair[1]);
+    split_planes();
+  }
+
+  // Splits at vertices that lie on pieces up to rounding, and at edges between such vertices.
+  void run(const NearContacts& contacts, EdgeVertices within) {
+    for (const auto& [p, q] : contacts.in_plane) join(p, q);
+    within_edges_ = std::move(within);
+    for (std::int32_t p = 0; p < static_cast<std::int32_t>(pieces_.size()); ++p)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (within_edge(edge(p, i)) != nullptr) grouped_.push_back(p);
+    for (const auto& [p, ends] : contacts.on_triangles) cuts_.push_back({p, ends});
+    for (const auto& [ends, inside] : within_edges_)
+      for (const std::int32_t v : inside) points_.use(v);
+    for (const Cut& cut : cuts_)
+      for (const std::int32_t v : cut.ends) points_.use(v);
+    for (const std::int32_t p : grouped_)
+      for (const std::int32_t v : vertices(p)) points_.use(v);
+    for (const Cut& cut : cuts_)
+      for (const std::int32_t v : vertices(cut.piece)) points_.use(v);
     split_planes();
   }
 
@@ -170,7 +236,8 @@ class Splitting {
     for (std::size_t p = 0; p < pieces_.size(); ++p)
       if (split_[p] == 0) {
         all.push_back(pieces_[p]);
-        all.back().unchecked = false;
+        all.back().is_new = false;
+        all.back().before = static_cast<std::int32_t>(p);
       }
     all.insert(all.end(), parts_.begin(), parts_.end());
     return all;
@@ -188,14 +255,30 @@ class Splitting {
 
   const Corners& vertices(std::int32_t p) const { return pieces_[index(p)].vertices; }
   const Point<3>& position(std::int32_t v) const { return points_.position(v); }
+  Segment edge(std::int32_t p, std::size_t i) const {
+    const std::int32_t a = vertices(p)[i], b = vertices(p)[(i + 1) % 3];
+    return {std::min(a, b), std::max(a, b)};
+  }
+  // Returns the vertices within an edge, or null if there are none.
+  const std::vector<std::int32_t>* within_edge(const Segment& ends) const {
+    const auto entry =
+        std::lower_bound(within_edges_.begin(), within_edges_.end(), ends,
+                         [](const auto& edge, const Segment& other) { return edge.first < other; });
+    return entry != within_edges_.end() && entry->first == ends ? &entry->second : nullptr;
+  }
 
   // ------------------------------------------------------------ contacts
+  // Notes that two pieces lie in one plane and are to be split together.
+  void join(std::int32_t p, std::int32_t q) {
+    in_plane_.join(p, q);
+    grouped_.push_back(p);
+    grouped_.push_back(q);
+  }
+
   void find_contact(std::int32_t p, std::int32_t q) {
     const std::array<int, 3> sides_p = sides(p, q), sides_q = sides(q, p);
     if (sides_p == std::array{0, 0, 0}) {
-      in_plane_.join(p, q);
-      grouped_.push_back(p);
-      grouped_.push_back(q);
+      join(p, q);
       return;
     }
     // Two triangles in different planes meet in one segment, the ends of which are found.
@@ -277,8 +360,16 @@ class Splitting {
     std::vector<Segment> segments;
     for (const std::int32_t p : group) {
       split_[index(p)] = 1;
-      const Corners& corners = vertices(p);
-      for (std::size_t i = 0; i < 3; ++i) segments.push_back({corners[i], corners[(i + 1) % 3]});
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Segment ends = edge(p, i);
+        std::int32_t last = ends[0];
+        if (const auto* inside = within_edge(ends))
+          for (const std::int32_t v : *inside) {
+            segments.push_back({last, v});
+            last = v;
+          }
+        segments.push_back({last, ends[1]});
+      }
       for (auto cut = std::lower_bound(cuts_.begin(), cuts_.end(), Cut{p, {-1, -1}});
            cut != cuts_.end() && cut->piece == p; ++cut)
         segments.push_back(cut->ends);
@@ -316,7 +407,7 @@ class Splitting {
     const bool turned = points_.orientation(k, a, b, c) < 0;
     for (Corners part : triangles) {
       if (turned) turn_around(part);
-      parts_.push_back({part, pieces_[index(p)].parents, true});
+      parts_.push_back({part, pieces_[index(p)].parents, true, -1});
     }
   }
 
@@ -324,30 +415,42 @@ class Splitting {
   void add_parts_of_several(const std::vector<std::int32_t>& group, int k,
                             const std::vector<Corners>& triangles) {
     std::vector<Box<2>> boxes;
-    std::vector<Corners> outlines;  // the pieces, counter-clockwise in the projection
+    std::vector<std::array<Point<2>, 3>> outlines;  // the pieces, counter-clockwise
     for (const std::int32_t p : group) {
       boxes.push_back(empty_box<2>());
-      for (const std::int32_t v : vertices(p)) include(boxes.back(), projection(k, position(v)));
-      outlines.push_back(vertices(p));
+      outlines.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        outlines.back()[i] = projection(k, position(vertices(p)[i]));
+        include(boxes.back(), outlines.back()[i]);
+      }
+      boxes.back() = widened(boxes.back(), reach_);
       const auto& [a, b, c] = vertices(p);
-      if (points_.orientation(k, a, b, c) < 0) turn_around(outlines.back());
+      if (points_.orientation(k, a, b, c) < 0) std::swap(outlines.back()[1], outlines.back()[2]);
     }
     const BoxTree<2> tree(std::move(boxes));
     std::vector<std::int32_t> found;
     for (const Corners& part : triangles) {
+      const Point<2> middle =
+          projection(k, centroid({position(part[0]), position(part[1]), position(part[2])}));
       found.clear();
-      tree.for_holding(projection(k, position(part[0])), [&](std::int32_t i) {
-        if (lies_within(part, outlines[index(i)], k)) found.push_back(group[index(i)]);
+      tree.for_holding(middle, [&](std::int32_t i) {
+        if (contains(outlines[index(i)], middle)) found.push_back(group[index(i)]);
       });
       std::sort(found.begin(), found.end());
       for (const std::int32_t p : found) add_parts(p, k, {part});
     }
   }
 
-  bool lies_within(const Corners& part, const Corners& outline, int k) const {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (const std::int32_t v : part)
-        if (points_.orientation(k, outline[i], outline[(i + 1) % 3], v) < 0) return false;
+  // Returns whether a triangle contains the middle of a part. A part lies within the triangle or
+  // outside, up to the bends of edges; the middle of a part that is not thin is farther away from
+  // the edges.
+  bool contains(const std::array<Point<2>, 3>& outline, const Point<2>& middle) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point<2>&a = outline[i], &b = outline[(i + 1) % 3];
+      const double twice_area =
+          (b[0] - a[0]) * (middle[1] - a[1]) - (b[1] - a[1]) * (middle[0] - a[0]);
+      if (twice_area < -reach_ * distance<2>(a, b)) return false;
+    }
     return true;
   }
 
@@ -361,47 +464,117 @@ class Splitting {
 
   ExactPoints points_;
   const std::vector<Piece>& pieces_;
+  double reach_;
   UnionFind<std::int32_t> in_plane_;  // joins pieces that lie on each other
   std::vector<std::int32_t> grouped_;
   std::vector<Cut> cuts_;
+  EdgeVertices within_edges_;
   std::unordered_map<Corners, std::int32_t, KeyHash> crossings_;  // of an edge and a piece
   std::vector<char> split_;                                       // per piece
   std::vector<Piece> parts_;
 };
 
+// Returns the largest absolute value of a coordinate of a triangle.
+double farthest(const Triangulation& surface) {
+  double farthest = 0;
+  for (const SurfaceTriangle& triangle : surface.triangles)
+    for (const std::int32_t v : triangle.vertices)
+      for (const double x : surface.vertices[index(v)]) farthest = std::max(farthest, std::fabs(x));
+  return farthest;
+}
+
 class Arranger {
  public:
   Arranger(Triangulation& surface, double tolerance)
       : surface_(surface),
-        tolerance_(tolerance),
+        tolerance_(std::max(tolerance, kCoordinateRounding * farthest(surface))),
         positions_(surface.vertices),
         parents_(surface.triangles.size()) {
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      pieces_.push_back({surface.triangles[t].vertices, static_cast<std::int32_t>(t), true});
+      pieces_.push_back({surface.triangles[t].vertices, static_cast<std::int32_t>(t), true, -1});
   }
 
   ArrangementSummary run(SplitAt split_at, std::vector<CoveredTriangle>& covered) {
     ArrangementSummary summary;
     unite_equal(pieces_, parents_);
+    std::vector<MeetingPair> remaining;  // pairs that meet exactly and were not split yet
     while (true) {
-      const std::vector<MeetingPair> pairs = meeting_pairs(positions_, pieces_);
-      if (pairs.empty()) break;
-      if (summary.rounds == kMostRounds) reject(pairs);
+      Meetings meetings = find_meetings(positions_, pieces_, kOnTriangle * tolerance_);
+      meetings.exact.insert(meetings.exact.end(), remaining.begin(), remaining.end());
+      sort_unique(meetings.exact);
+      const bool near = meetings.near.count() > 0;
+      if (!near && meetings.exact.empty()) break;
+      if (summary.rounds == kMostRounds) reject(meetings);
       ++summary.rounds;
-      Splitting splitting(positions_, pieces_);
-      splitting.run(pairs);
+      if (split_at == SplitAt::given_vertices && !meetings.near.crossings.empty()) return {};
+      EdgeVertices within = vertices_in_edges(meetings.near);
+      Splitting splitting(positions_, pieces_, kOnTriangle * tolerance_);
+      if (near) {
+        splitting.run(meetings.near, std::move(within));
+      } else {
+        splitting.run(meetings.exact);
+      }
       if (split_at == SplitAt::given_vertices &&
           splitting.points().count() > splitting.points().given_count())
         return {};
       std::vector<Piece> pieces = std::move(splitting).result();
       round(splitting.points(), pieces);
+      remaining = near ? pairs_between_old(meetings.exact, pieces) : std::vector<MeetingPair>{};
       pieces_ = std::move(pieces);
     }
-    write(summary, covered);
+    if (summary.rounds > 0 || pieces_.size() < surface_.triangles.size()) write(summary, covered);
     return summary;
   }
 
  private:
+  // Returns the vertices within edges, including new ones where edges cross.
+  EdgeVertices vertices_in_edges(const NearContacts& contacts) {
+    std::vector<std::pair<Segment, std::int32_t>> all = contacts.on_edges;
+    if (!contacts.crossings.empty()) {
+      const auto first = static_cast<std::int32_t>(positions_.size());
+      for (const auto& [e, f] : contacts.crossings)
+        positions_.push_back(
+            nearest_to_segment({positions_[index(e[0])], positions_[index(e[1])]},
+                               {positions_[index(f[0])], positions_[index(f[1])]}));
+      const std::vector<std::int32_t> welded = weld_points(positions_, tolerance_);
+      std::int32_t next = first;
+      for (const auto& edges : contacts.crossings) {
+        const std::int32_t v = welded[index(next++)];
+        for (const Segment& edge : edges)
+          if (v != edge[0] && v != edge[1]) all.emplace_back(edge, v);
+      }
+      sort_unique(all);
+    }
+    EdgeVertices within;
+    for (const auto& [edge, v] : all) {
+      if (within.empty() || within.back().first != edge) within.push_back({edge, {}});
+      within.back().second.push_back(v);
+    }
+    for (auto& [edge, inside] : within) {
+      const Point<3>& a = positions_[index(edge[0])];
+      const Point<3> along = difference(positions_[index(edge[1])], a);
+      std::sort(inside.begin(), inside.end(), [&](std::int32_t v, std::int32_t w) {
+        const double at_v = dot(difference(positions_[index(v)], a), along),
+                     at_w = dot(difference(positions_[index(w)], a), along);
+        return at_v != at_w ? at_v < at_w : v < w;
+      });
+    }
+    return within;
+  }
+
+  // Returns the pairs whose pieces were not changed, by their new indices.
+  std::vector<MeetingPair> pairs_between_old(const std::vector<MeetingPair>& pairs,
+                                             const std::vector<Piece>& pieces) const {
+    std::vector<std::int32_t> now(pieces_.size(), -1);
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      if (!pieces[p].is_new) now[index(pieces[p].before)] = static_cast<std::int32_t>(p);
+    std::vector<MeetingPair> between;
+    for (const auto& [p, q] : pairs)
+      if (now[index(p)] >= 0 && now[index(q)] >= 0)
+        between.push_back({now[index(p)], now[index(q)]});
+    return between;
+  }
+
   // Moves constructed points to doubles, merges those that are too close, and removes pieces
   // without area.
   void round(const ExactPoints& points, std::vector<Piece>& pieces) {
@@ -433,23 +606,33 @@ class Arranger {
     std::vector<Piece> kept;
     for (const SurfaceTriangle& triangle : triangulation.triangles) {
       Piece piece = pieces[index(triangle.number)];
-      piece.unchecked = piece.unchecked || piece.vertices != triangle.vertices;
+      piece.is_new = piece.is_new || piece.vertices != triangle.vertices;
       piece.vertices = triangle.vertices;
       kept.push_back(piece);
     }
     pieces = std::move(kept);
   }
 
-  [[noreturn]] void reject(const std::vector<MeetingPair>& pairs) const {
-    const Piece &p = pieces_[index(pairs[0][0])], &q = pieces_[index(pairs[0][1])];
-    const Contact contact =
-        contact_of(corners_of(positions_, p.vertices), corners_of(positions_, q.vertices));
-    throw BrokenSurface(
-        surface_.triangle_name(parents_.members(p.parents)[0] / 2) + " and " +
-        surface_.triangle_name(parents_.members(q.parents)[0] / 2) + " meet at " +
-        point_text(contact.place) +
-        " and cannot be split there because coordinates are rounded: move the surfaces apart, or "
-        "give them common vertices there");
+  [[noreturn]] void reject(const Meetings& meetings) const {
+    MessageText place;
+    if (!meetings.exact.empty()) {
+      const Piece &p = pieces_[index(meetings.exact[0][0])],
+                  &q = pieces_[index(meetings.exact[0][1])];
+      const Contact contact =
+          contact_of(corners_of(positions_, p.vertices), corners_of(positions_, q.vertices));
+      place = surface_.triangle_name(parents_.members(p.parents)[0] / 2) + " and " +
+              surface_.triangle_name(parents_.members(q.parents)[0] / 2) + " meet at " +
+              point_text(contact.place);
+    } else {
+      const std::int32_t v = !meetings.near.on_edges.empty() ? meetings.near.on_edges[0].second
+                             : !meetings.near.crossings.empty()
+                                 ? meetings.near.crossings[0][0][0]
+                                 : meetings.near.on_triangles[0].second[0];
+      place = "triangles nearly meet at " + point_text(positions_[index(v)]);
+    }
+    throw BrokenSurface(place +
+                        " and cannot be split there because coordinates are rounded: move the "
+                        "surfaces apart, or give them common vertices there");
   }
 
   // Writes the pieces as triangles in the order of the triangles that they come from.

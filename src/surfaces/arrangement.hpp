@@ -28,10 +28,13 @@ enum class SplitAt { any_point, given_vertices };
 
 // Splits triangles where they meet other than in common vertices and edges. Triangles that lie on
 // each other become one, which comes from the first of them; `covered` lists the others. Pieces
-// keep the attributes of the triangle that they are part of. The decisions are exact, and each new
-// vertex has the coordinates nearest to the point. Vertices within `tolerance` are merged, and
-// pieces that are thinner than it are removed. New crossings caused by this rounding are split
-// again; throws Error(ErrorKind::domain) if some remain.
+// keep the attributes of the triangle that they are part of.
+//
+// Vertices closer than `tolerance` are merged, pieces thinner than it are removed, and a vertex
+// closer than a sixteenth of it to an edge or a triangle lies on that: surfaces that coincide up to
+// rounding become one. All other decisions are exact, and each new vertex has the coordinates
+// nearest to the point. Crossings that arise when it is rounded are split again; throws
+// Error(ErrorKind::domain) if some remain.
 //
 // With SplitAt::given_vertices nothing changes if a new vertex is required.
 //
