@@ -76,16 +76,23 @@ class ParentSets {
     return sets_[index(set) - single_.size()];
   }
 
-  // Returns the union of two sets. The orientations of `other` are reversed if `turned` is true.
+  // Returns the union of two sets, which can be empty. The orientations of `other` are reversed if
+  // `turned` is true.
   std::int32_t united(std::int32_t set, std::int32_t other, bool turned) {
     const std::span<const std::int32_t> own = members(set), others = members(other);
     std::vector<std::int32_t> all(own.begin(), own.end());
     for (const std::int32_t member : others) all.push_back(member ^ (turned ? 1 : 0));
     std::sort(all.begin(), all.end());
-    // A triangle that was folded by rounding counts once.
-    all.erase(std::unique(all.begin(), all.end(),
-                          [](std::int32_t a, std::int32_t b) { return a / 2 == b / 2; }),
-              all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    // Parts of a triangle that rounding folds onto each other cancel, so that surfaces stay closed.
+    for (std::size_t i = 0; i + 1 < all.size();) {
+      if (all[i] / 2 == all[i + 1] / 2) {
+        const auto at = all.begin() + static_cast<std::ptrdiff_t>(i);
+        all.erase(at, at + 2);
+      } else {
+        ++i;
+      }
+    }
     if (std::ranges::equal(all, own)) return set;
     const auto [entry, is_new] =
         known_.try_emplace(all, static_cast<std::int32_t>(single_.size() + sets_.size()));
@@ -134,13 +141,13 @@ void unite_equal(std::vector<Piece>& pieces, ParentSets& parents) {
   if (!any) return;
   std::size_t kept = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p)
-    if (gone[p] == 0) pieces[kept++] = pieces[p];
+    if (gone[p] == 0 && !parents.members(pieces[p].parents).empty()) pieces[kept++] = pieces[p];
   pieces.resize(kept);
 }
 
 using MeetingPair = std::array<std::int32_t, 2>;  // the lower index first
 
-// Where pieces meet other than in common vertices and edges, in order.
+// Contacts of pieces other than in common vertices and edges, in order.
 struct Meetings {
   NearContacts near;  // up to rounding
   std::vector<MeetingPair> exact;
@@ -483,6 +490,9 @@ double farthest(const Triangulation& surface) {
   return farthest;
 }
 
+// Stands for the given vertex of a new one.
+constexpr Triangulation::GivenVertex kIntersection{-1, -1};
+
 class Arranger {
  public:
   Arranger(Triangulation& surface, double tolerance)
@@ -598,19 +608,28 @@ class Arranger {
   }
 
   void remove_thin(std::vector<Piece>& pieces) const {
-    Triangulation triangulation{surface_.sources, surface_.tag_names, positions_, {}, {}};
-    for (std::size_t p = 0; p < pieces.size(); ++p)
-      triangulation.triangles.push_back(
-          {pieces[p].vertices, 0, 0, static_cast<std::int32_t>(p), false});
-    remove_thin_pieces(triangulation, tolerance_);
+    // The tags are the indices of the pieces.
+    Triangulation all{surface_.sources, {}, positions_, {}, {}};
+    all.tag_names.resize(surface_.sources.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      const SurfaceTriangle& parent = parent_of(pieces[p]);
+      all.triangles.push_back(
+          {pieces[p].vertices, static_cast<std::int32_t>(p), parent.source, parent.number, false});
+    }
+    remove_thin_pieces(all, tolerance_);
     std::vector<Piece> kept;
-    for (const SurfaceTriangle& triangle : triangulation.triangles) {
-      Piece piece = pieces[index(triangle.number)];
+    for (const SurfaceTriangle& triangle : all.triangles) {
+      Piece piece = pieces[index(triangle.tag)];
       piece.is_new = piece.is_new || piece.vertices != triangle.vertices;
       piece.vertices = triangle.vertices;
       kept.push_back(piece);
     }
     pieces = std::move(kept);
+  }
+
+  // Returns the first given triangle that contains a piece.
+  const SurfaceTriangle& parent_of(const Piece& piece) const {
+    return surface_.triangles[index(parents_.members(piece.parents)[0] / 2)];
   }
 
   [[noreturn]] void reject(const Meetings& meetings) const {
@@ -643,12 +662,13 @@ class Arranger {
     std::sort(order.begin(), order.end());
     std::vector<std::int32_t> number(positions_.size(), -1);
     const std::size_t given = surface_.vertices.size();
+    surface_.given.resize(given, kIntersection);
     std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(given), 0);
     const auto vertex = [&](std::int32_t v) {
       if (number[index(v)] < 0) {
         number[index(v)] = static_cast<std::int32_t>(surface_.vertices.size());
         surface_.vertices.push_back(positions_[index(v)]);
-        surface_.given.push_back({-1, -1});
+        surface_.given.push_back(kIntersection);
       }
       return number[index(v)];
     };

@@ -74,8 +74,7 @@ class Thinner {
     for (std::size_t cuts = 0; !thin_.empty(); ++cuts) {
       const std::int32_t t = std::get<1>(thin_.top());
       thin_.pop();
-      if (cuts > kMaxCuts * given)
-        throw Error(ErrorKind::domain, surface_.triangle_name(t) + " is too thin");
+      if (cuts > kMaxCuts * given) throw BrokenSurface(surface_.triangle_name(t) + " is too thin");
       if (!gone_[t]) cut_out(t);
     }
     std::size_t kept = 0;
@@ -119,6 +118,7 @@ class Thinner {
     const auto& corners = triangles_[t].vertices;
     const std::int32_t apex = corners[k], a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
     remove(t);
+    std::erase_if(at_vertex_[a], [this](std::int32_t other) { return gone_[other] != 0; });
     const std::vector<std::int32_t> at_a = at_vertex_[a];
     for (const std::int32_t other : at_a) {
       if (gone_[other] || !triangles_[other].has(b)) continue;

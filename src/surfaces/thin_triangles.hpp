@@ -18,6 +18,7 @@ void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings);
 
 // The same for pieces of triangles, without a warning. Flat pieces with a larger height stay.
+// Throws Error(ErrorKind::domain) if the pieces become too many.
 void remove_thin_pieces(Triangulation& surface, double tolerance);
 
 // Removes all but the first of the triangles of one source that have the same corners, with a

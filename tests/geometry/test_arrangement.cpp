@@ -300,8 +300,9 @@ START_TEST(quotients_are_rounded_to_the_nearest_double) {
     const int off = static_cast<int>(random.below(3)) - 1;
     constexpr int kUnit = -200;
     const WideInteger twice = WideInteger(x, kUnit) + WideInteger(between ? above : x, kUnit);
-    const WideInteger b = WideInteger(std::floor(random.between(1, 0x1p53)), 0) *
-                          WideInteger(std::ldexp(1, 1 + static_cast<int>(random.below(150))), 0);
+    WideInteger b = WideInteger(1, 0);
+    for (std::int64_t factors = 1 + random.below(4); factors > 0; --factors)
+      b = b * WideInteger(std::floor(random.between(1, 0x1p53)), 0);
     const WideInteger a = twice * b + WideInteger(off, 0);
     const bool is_odd = std::fmod(std::ldexp(x, 52 - std::ilogb(x)), 2) != 0;
     const double expected = between && (off > 0 || (off == 0 && is_odd)) ? above : x;
