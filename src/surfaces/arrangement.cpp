@@ -2,6 +2,7 @@
 #include "surfaces/arrangement.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +23,7 @@
 #include "geometry/volume/triangle_contacts.hpp"
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/welding.hpp"
+#include "predicates/bit_range.hpp"
 #include "predicates/space.hpp"
 #include "surfaces/exact_points.hpp"
 #include "surfaces/near_contacts.hpp"
@@ -45,9 +47,9 @@ constexpr int kMostRounds = 40;
 // one triangle then have different projections to its plane.
 constexpr double kOnTriangle = 0.0625;
 
-// Smallest tolerance far from the origin, where coordinates have few digits. [largest coordinate]
-// The distance within which vertices lie on triangles is then four units of the last digit.
-constexpr double kCoordinateRounding = 64 * std::numeric_limits<double>::epsilon();
+// Smallest tolerance for coordinates with few digits: far from the origin, or of single precision.
+// [unit of the last digit] Vertices then lie on a triangle within four units of the last digit.
+constexpr double kLastDigits = 64;
 
 Corners sorted(Corners vertices) {
   std::sort(vertices.begin(), vertices.end());
@@ -481,13 +483,30 @@ class Splitting {
   std::vector<Piece> parts_;
 };
 
-// Returns the largest absolute value of a coordinate of a triangle.
-double farthest(const Triangulation& surface) {
+// Returns the largest unit of the last digit of coordinates. A source has single precision if all
+// of its coordinates are numbers of that precision and together use nearly all of its digits.
+// Shorter numbers are exact.
+double last_digit(const Triangulation& surface) {
+  constexpr int kSingleDigits = std::numeric_limits<float>::digits;
+  struct Digits {
+    bool few = true;
+    BitRange range;
+  };
+  std::vector<Digits> of(surface.sources.size());
   double farthest = 0;
   for (const SurfaceTriangle& triangle : surface.triangles)
     for (const std::int32_t v : triangle.vertices)
-      for (const double x : surface.vertices[index(v)]) farthest = std::max(farthest, std::fabs(x));
-  return farthest;
+      for (const double x : surface.vertices[index(v)]) {
+        Digits& digits = of[index(triangle.source)];
+        farthest = std::max(farthest, std::fabs(x));
+        digits.few = digits.few && std::countr_zero(binary_parts(x).mantissa) >= 53 - kSingleDigits;
+        digits.range.include(x);
+      }
+  const bool any_single = std::ranges::any_of(of, [](const Digits& digits) {
+    return digits.few && digits.range.high - digits.range.low > kSingleDigits - 3;
+  });
+  return farthest * (any_single ? double{std::numeric_limits<float>::epsilon()}
+                                : std::numeric_limits<double>::epsilon());
 }
 
 // Stands for the given vertex of a new one.
@@ -497,7 +516,8 @@ class Arranger {
  public:
   Arranger(Triangulation& surface, double tolerance)
       : surface_(surface),
-        tolerance_(std::max(tolerance, kCoordinateRounding * farthest(surface))),
+        given_tolerance_(tolerance),
+        tolerance_(std::max(tolerance, kLastDigits * last_digit(surface))),
         positions_(surface.vertices),
         parents_(surface.triangles.size()) {
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -506,7 +526,12 @@ class Arranger {
 
   ArrangementSummary run(SplitAt split_at, std::vector<CoveredTriangle>& covered) {
     ArrangementSummary summary;
-    unite_equal(pieces_, parents_);
+    summary.tolerance = tolerance_;
+    if (tolerance_ > given_tolerance_) {
+      round(ExactPoints(positions_), pieces_);
+    } else {
+      unite_equal(pieces_, parents_);
+    }
     std::vector<MeetingPair> remaining;  // pairs that meet exactly and were not split yet
     while (true) {
       Meetings meetings = find_meetings(positions_, pieces_, kOnTriangle * tolerance_);
@@ -532,7 +557,9 @@ class Arranger {
       remaining = near ? pairs_between_old(meetings.exact, pieces) : std::vector<MeetingPair>{};
       pieces_ = std::move(pieces);
     }
-    if (summary.rounds > 0 || pieces_.size() < surface_.triangles.size()) write(summary, covered);
+    if (summary.rounds > 0 || tolerance_ > given_tolerance_ ||
+        pieces_.size() < surface_.triangles.size())
+      write(summary, covered);
     return summary;
   }
 
@@ -701,7 +728,7 @@ class Arranger {
   }
 
   Triangulation& surface_;
-  double tolerance_;
+  double given_tolerance_, tolerance_;
   std::vector<Point<3>> positions_;  // of the given vertices and of new ones
   ParentSets parents_;
   std::vector<Piece> pieces_;

@@ -21,6 +21,7 @@ struct ArrangementSummary {
   std::int64_t new_vertices = 0;  // vertices at which no given one lies
   std::int64_t covered = 0;       // triangles that lay on another one
   int rounds = 0;                 // how often triangles were split
+  double tolerance = 0;           // within which vertices were merged
 };
 
 // The vertices at which triangles may be split.
@@ -30,11 +31,13 @@ enum class SplitAt { any_point, given_vertices };
 // each other become one, which comes from the first of them; `covered` lists the others. Pieces
 // keep the attributes of the triangle that they are part of.
 //
-// Vertices closer than `tolerance` are merged, pieces thinner than it are removed, and a vertex
+// Vertices closer than a tolerance are merged, pieces thinner than it are removed, and a vertex
 // closer than a sixteenth of it to an edge or a triangle lies on that: surfaces that coincide up to
 // rounding become one. All other decisions are exact, and each new vertex has the coordinates
 // nearest to the point. Crossings that arise when it is rounded are split again; throws
-// Error(ErrorKind::domain) if some remain.
+// Error(ErrorKind::domain) if some remain. The tolerance is larger than the given one where the
+// coordinates have fewer digits: far from the origin, and if those of a source are of single
+// precision.
 //
 // With SplitAt::given_vertices nothing changes if a new vertex is required.
 //
