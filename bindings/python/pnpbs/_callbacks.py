@@ -42,9 +42,11 @@ def _copied(address: _Address, shape: Tuple[int, ...]) -> Doubles:
 
 def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: str) -> None:
     """Writes the result of a function into the array of the library. A single number stands for all
-    values of a function of points. Raises ValueError for another shape."""
+    values of a spacing. Raises TypeError for None, and ValueError for another shape."""
+    if values is None:
+        raise TypeError(f"the {what} function returned None; an array of shape {shape} was expected")
     array = np.asarray(values, dtype=np.float64)
-    if array.ndim == 0 and len(shape) == 1:
+    if array.ndim == 0 and what == "spacing":
         array = np.full(shape, array)
     if array.shape != shape:
         raise ValueError(f"the {what} function returned an array of shape {array.shape}; {shape} "
@@ -54,7 +56,7 @@ def _store(address: _Address, values: ArrayLike, shape: Tuple[int, ...], what: s
 
 def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> Any:
     """Makes a callback of f(points), which receives points of shape (n, dim) and returns n
-    values, or one number for all points."""
+    values."""
 
     def call(n: int, dim: int, coordinates: _Address, values: _Address, _user: Any) -> int:
         def work() -> None:
@@ -67,7 +69,7 @@ def _at_points(c_type: str, what: str, f: ArrayFunction, context: Context) -> An
 
 
 def spacing_callback(f: ArrayFunction, context: Context) -> Any:
-    """Makes a spacing callback of d(points)."""
+    """Makes a spacing callback of d(points), which may also return one number for all points."""
     return _at_points("pnpbs_spacing_fn", "spacing", f, context)
 
 

@@ -301,16 +301,41 @@ def _array_of(dtype: str) -> Type[_Array]:
     return type(f"_ArrayOf_{dtype}", (_Array,), {"dtype": np.dtype(dtype)})
 
 
-class _Integer:
+class _Number:
+    """The type of a numeric argument. Errors name the argument, which ctypes alone does not."""
+
+    name: str
+    kind: str
+
+    @classmethod
+    def wrong(cls, value: Any) -> TypeError:
+        return TypeError(f"{cls.name} is {value!r}; {cls.kind} was expected")
+
+
+class _Real(_Number):
+    kind = "a real number"
+
+    @classmethod
+    def from_param(cls, value: Any) -> Any:
+        try:
+            return ctypes.c_double.from_param(value)
+        except TypeError:
+            raise cls.wrong(value) from None
+
+
+class _Integer(_Number):
     """The type of an integer argument. It raises OverflowError for numbers that do not fit; ctypes
     alone truncates them."""
 
     bits: int
-    name: str
+    kind = "an integer"
 
     @classmethod
     def from_param(cls, value: Any) -> Any:
-        number = operator.index(value)
+        try:
+            number = operator.index(value)
+        except TypeError:
+            raise cls.wrong(value) from None
         if not -(1 << cls.bits - 1) <= number < 1 << cls.bits - 1:
             raise OverflowError(f"{cls.name} is {number}, which does not fit into {cls.bits} bits")
         return ctypes.c_int32(number) if cls.bits == 32 else ctypes.c_int64(number)
@@ -323,6 +348,8 @@ def _argument(c_type: str, name: str) -> Any:
     """Returns the type of an argument for `function.argtypes`."""
     if c_type in _BITS:
         return type(f"_{c_type}_{name}", (_Integer,), {"bits": _BITS[c_type], "name": name})
+    if c_type == "double":
+        return type(f"_double_{name}", (_Real,), {"name": name})
     return ctypes_of(c_type)
 
 
