@@ -5,14 +5,18 @@ conversion that needs it."""
 from __future__ import annotations
 
 import importlib
-from typing import Any, Tuple
+import os
+import pathlib
+import tempfile
+from typing import Any, Dict, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._petsc import plex_of
 from ._plots import plot_mesh
-from ._types import Int32s
+from ._types import Int32s, Path
+from .errors import PNPBSError, Status
 from .mesh_arrays import MeshArrays
 
 
@@ -163,6 +167,28 @@ class MeshConversions(MeshArrays):
         facet."""
         rank = self.owners[0] if self.owned_nodes else -1
         return np.equal(self.facet_owners, rank)
+
+
+def write_meshio(mesh: Any, path: Path, names: Dict[Tuple[int, int], str]) -> None:
+    """Writes a `meshio.Mesh` made by `to_meshio`. The file, and those that meshio writes beside it,
+    replace existing ones when all are complete. Raises `Status.ERROR_FILE` if meshio fails.
+    `names` are those of tags, as of `Domain.tag_names`."""
+    target = pathlib.Path(os.fsdecode(path))
+    if target.suffix.lower() == ".inp":  # the only one of these formats with sets in meshio
+        for block, tags in enumerate(mesh.cell_data["tag"]):
+            for tag in np.unique(tags[tags != 0]):
+                name = names.get((mesh.cells[block].dim, tag), f"{('region', 'tag')[block]}_{tag}")
+                mesh.cell_sets[name] = [np.flatnonzero((tags == tag) & (k == block))
+                                        for k in range(len(mesh.cells))]
+    try:
+        with tempfile.TemporaryDirectory(prefix=".pnpbs-", dir=target.parent) as folder:
+            mesh.write(pathlib.Path(folder) / target.name)
+            for written in pathlib.Path(folder).iterdir():
+                written.replace(target.parent / written.name)
+    except Exception as error:  # meshio raises errors of many types
+        reason = f"{type(error).__name__}: {error}"
+        raise PNPBSError(Status.ERROR_FILE, f"meshio cannot write '{target}' ({reason}); write a .msh "
+                         "file, which Gmsh converts") from error
 
 
 def _package(name: str) -> Any:

@@ -24,6 +24,7 @@ from .domain import Domain
 from .errors import OutcomeError, Status
 from .fields import Fields
 from .mesh import Meshes
+from .mesh_conversions import write_meshio
 from .results import Results
 from .voronoi import Tessellation
 
@@ -305,16 +306,20 @@ class Placement(Results, Fields, Meshes, Tessellation):
           rank. They are copied. Points outside the domain or too close to its boundary are dropped.
         - `ids`: n distinct global ids from 0, or None for ids that the library chooses.
 
-        Raises ValueError if the number of ids differs from that of points."""
+        Raises ValueError if the ids are no integers, or if their number differs from that of
+        points."""
         points = as_points(coordinates, self.dim, "coordinates")
-        given = None if ids is None else np.ascontiguousarray(ids, np.int64)
-        wrong = None if given is None or given.shape == (len(points),) else given.shape
-        # If the number of ids is wrong on one rank, an invalid call informs the library and thus
-        # the other ranks, which otherwise block.
-        code = library().pnpbs_placement_set_nodes(self._live(), len(points) if wrong is None else -1,
-                                                   points, given)
-        if wrong is not None:
-            raise ValueError(f"ids has shape {wrong}; ({len(points)},) was expected")
+        given = None if ids is None else np.asarray(ids)
+        wrong = given is not None and (given.shape != (len(points),) or
+                                       (given.size > 0 and given.dtype.kind not in "iu"))
+        numbers = None if given is None or wrong else np.ascontiguousarray(given, np.int64)
+        # If the ids are wrong on one rank, an invalid call informs the library and thus the other
+        # ranks, which otherwise block.
+        code = library().pnpbs_placement_set_nodes(self._live(), -1 if wrong else len(points), points,
+                                                   numbers)
+        if given is not None and wrong:
+            raise ValueError(f"ids has shape {given.shape} and type {given.dtype}; {len(points)} "
+                             "integers were expected")
         self.context._check(code)
         return self
 
@@ -345,7 +350,8 @@ class Placement(Results, Fields, Meshes, Tessellation):
         if mesh.owned_nodes != mesh.all_nodes:
             raise ValueError(f"{os.fsdecode(path)!r} would be written by meshio, on one rank: write "
                              "a .vtu or .msh file and convert it")
-        mesh.to_meshio().write(path)
+        names = self.domain.tag_names() if self.domain.is_open else {}
+        write_meshio(mesh.to_meshio(), path, names)
         return Status.OK
 
     def run(self, progress: bool = False, strict: bool = False) -> Status:

@@ -491,7 +491,7 @@ class Results(PlacementHandle):
 
         A file with an extension that only meshio knows, such as .inp, .mesh or .exo, is
         written by meshio from `Placement.mesh` with elements, and as the only file of a call on one
-        rank.
+        rank. In .inp each tag of facets and regions is a set of elements, with the name of the tag.
 
         Returns `Status.OK`, or `Status.STOPPED` if the monitor has stopped the call, which keeps
         existing files. Raises `Status.ERROR_FILE` with the name of the file, and
