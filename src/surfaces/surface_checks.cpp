@@ -127,6 +127,7 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
   constexpr std::size_t kListed = 5;
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::int64_t pairs = 0;
+  bool broken = false;  // whether two boundary triangles cross
   std::set<Pair> first;
   for (std::int32_t t = 0; t < count; ++t) {
     const FacetCorners<3> corners = surface.corners(t);
@@ -136,6 +137,7 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
                           surface.triangles[other].vertices))
         return;
       ++pairs;
+      broken |= !surface.triangles[t].inner && !surface.triangles[other].inner;
       first.emplace(t, other);
       if (first.size() > kListed) first.erase(std::prev(first.end()));
     });
@@ -145,7 +147,12 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
   for (const Pair& pair : first) message += (message.empty() ? "" : "\n") + text_of(surface, pair);
   const std::int64_t others = pairs - std::ssize(first);
   if (others > 0) message += "\nand " + std::to_string(others) + " more such pairs";
-  throw BrokenSurface(message);
+  if (broken) throw BrokenSurface(message);
+  // A repair leaves inner surfaces as they are.
+  reject_domain(
+      message +
+      "\nInner surfaces may meet other triangles only in common edges and vertices: divide "
+      "the triangles along the line in which they meet");
 }
 
 }  // namespace pnpbs

@@ -146,6 +146,16 @@ CASES = [
            says=(" of surface 0 'housing' and triangle ", " of surface 0 'shaft' cross at (",
                  "\ntriangle ", "\nand 7 more such pairs"), omits=("; triangle",))
       for form in ("stl", "obj")],
+    Case("inner surfaces that cross the boundary", {"a.obj": solids("obj")},
+         "--domain a.obj --spacing 0.3 --inner shaft --inner bolt", code=BAD_INPUT,
+         says=(" of surface 0 'housing' and triangle ", "\nInner surfaces may meet other triangles only "
+               "in common edges and vertices"), omits=("--repair",)),
+
+    # ------------------------------------------------ counts
+    Case("vertices that are left out",
+         {"a.geojson": features(polygon("lake", ring(200, 1000, 0, 0)))},
+         "--domain a.geojson --simplify 0.25,2 --corner-angle 45 " + IN_PLANE, needs_gdal=True,
+         says=("vertices were left out\n",), omits=("closed curves",)),
 ]
 
 # A fracture that ends just short of a side, or just beyond it.

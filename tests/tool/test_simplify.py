@@ -24,7 +24,7 @@ class Shores(CommandTest):
         given, none = self.report()
         self.assertEqual(none, [])
         simpler, told = self.report("--simplify", "0.25")
-        self.assertRegex(told[0], r"simplified: [0-9]+ vertices were left out.* 0 closed curves")
+        self.assertRegex(told[0], r"simplified: [0-9]+ vertices were left out$")
         self.assertLess(simpler["boundary_nodes"], 0.75 * given["boundary_nodes"])
         bare, told = self.report("--simplify", "0.25,2", "--corner-angle", "40")
         self.assertRegex(told[0], "of [1-9][0-9]+ closed curves")

@@ -128,7 +128,8 @@ class Joiner {
                                   ? " are both at " + point_text(positions_[a])
                                   : " are too close, at " + point_text(positions_[a]) + " and " +
                                         point_text(positions_[b]);
-    reject_domain(point_name(a) + " and " + point_name(b) + where);
+    reject_domain(point_name(a) + " and " + point_name(b) + where +
+                  (both_fixed ? "; leave one of them out" : "; let all segments use one of them"));
   }
 
   bool is_snapped(const GivenPoint& given) const {

@@ -268,11 +268,13 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
   sources_ = std::move(sources);
   region_points_ = std::move(region_points);
   if (left_out.vertices > 0)
-    given_warnings_.emplace_back(WarningCode::simplified,
-                                 "simplified: " + std::to_string(left_out.vertices) +
-                                     " vertices were left out, including all of " +
-                                     std::to_string(left_out.curves) + " closed curves",
-                                 left_out.vertices);
+    given_warnings_.emplace_back(
+        WarningCode::simplified,
+        "simplified: " + std::to_string(left_out.vertices) + " vertices were left out" +
+            (left_out.curves > 0
+                 ? ", including all of " + std::to_string(left_out.curves) + " closed curves"
+                 : ""),
+        left_out.vertices);
   checked_ = false;
   return left_out;
 }
