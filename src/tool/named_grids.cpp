@@ -47,6 +47,8 @@ class GridCoverage {
   // Returns how many nodes lie beyond the edge of the grid, or where it has no data; "" if none do.
   std::string beyond_message() const;
   std::string without_data_message() const;
+  // Returns "" unless the depth is nowhere positive. The values are depths, or elevations.
+  std::string dry_message(const DepthRequest& request) const;
 
  private:
   struct Nodes {
@@ -61,7 +63,7 @@ class GridCoverage {
   std::string name_, path_;
   int dimension_;
   bool on_sphere_;
-  std::int64_t nodes_ = 0;
+  std::int64_t nodes_ = 0, positive_ = 0, negative_ = 0;  // nodes, by the sign of the value there
   Nodes beyond_, without_data_;
 };
 
@@ -87,6 +89,8 @@ GridCoverage::GridCoverage(const NamedGrid& grid, pnpbs_placement placement, int
       std::copy_n(x.data() + dimension * i, dimension, place.begin());
       if (kind == NamedGrid::beyond_edge) count(beyond_, place);
       if (kind == NamedGrid::without_data) count(without_data_, place);
+      positive_ += values[static_cast<std::size_t>(i)] > 0;
+      negative_ += values[static_cast<std::size_t>(i)] < 0;
     }
   });
   add_up(ranks);
@@ -99,13 +103,15 @@ void GridCoverage::count(Nodes& nodes, const Point<3>& place) const {
 
 void GridCoverage::add_up(const Ranks& ranks) {
   struct Counts {
-    std::int64_t nodes;
+    std::int64_t nodes, positive, negative;
     Nodes beyond, without_data;
   };
-  const Counts own{nodes_, beyond_, without_data_};
-  nodes_ = beyond_.count = without_data_.count = 0;
+  const Counts own{nodes_, positive_, negative_, beyond_, without_data_};
+  nodes_ = positive_ = negative_ = beyond_.count = without_data_.count = 0;
   for (const Counts& its : ranks.gather(std::vector<Counts>{own})) {
     nodes_ += its.nodes;
+    positive_ += its.positive;
+    negative_ += its.negative;
     for (const auto& [all, some] :
          {std::pair{&beyond_, &its.beyond}, std::pair{&without_data_, &its.without_data}}) {
       all->count += some->count;
@@ -143,6 +149,14 @@ std::string GridCoverage::without_data_message() const {
   return grid_in_words() +
          " has gaps in the domain: " + text_of(without_data_, "where it has no data") +
          "; there its values are those of the nearest cells with data";
+}
+
+std::string GridCoverage::dry_message(const DepthRequest& request) const {
+  if (nodes_ == 0 || (request.elevations ? negative_ : positive_) > 0) return "";
+  return std::string(DepthRequest::option) + ": " + grid_in_words() + " has no water at any of " +
+         std::to_string(nodes_) + " nodes, which count as the least depth: " +
+         (request.elevations ? "are its values depths, positive down? Then leave out the word 'up'"
+                             : "are its values elevations, positive up? Then add the word 'up'");
 }
 
 constexpr Box<3> all_degrees{{-180, -90, 0}, {180, 90, 0}};
@@ -274,6 +288,9 @@ std::vector<std::string> NamedGrids::warnings(pnpbs_placement placement, pnpbs_d
     if (const std::string words = coverage.beyond_message(); !words.empty() && !library_warns)
       warnings.push_back(words + ". " + extents_in_words(*each, domain, context));
     if (const std::string words = coverage.without_data_message(); !words.empty())
+      warnings.push_back(words);
+    if (option_of(*each) != DepthRequest::option) continue;
+    if (const std::string words = coverage.dry_message(*depth_); !words.empty())
       warnings.push_back(words);
   }
   return warnings;
