@@ -171,6 +171,13 @@ std::string trimmed(std::string token) {
   return token;
 }
 
+// Returns the letters, digits and points of the formula from a position on.
+std::string word_at(const std::string& formula, std::size_t position) {
+  const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '.'; };
+  const auto begin = formula.begin() + static_cast<std::ptrdiff_t>(position);
+  return {begin, std::find_if_not(begin, formula.end(), in_word)};
+}
+
 std::string about_unknown(const std::string& token, const mu::Parser& parser) {
   const auto first = static_cast<unsigned char>(token.empty() ? ' ' : token[0]);
   if (parser.GetFunDef().contains(token))
@@ -185,13 +192,17 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   const std::string token = trimmed(error.GetToken());
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
-      return about_unknown(token, parser);
+      return about_unknown(!token.empty() && std::isdigit(static_cast<unsigned char>(token[0]))
+                               ? word_at(error.GetExpr(), static_cast<std::size_t>(error.GetPos()))
+                               : token,
+                           parser);
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
     case mu::ecMISSING_PARENS:
       return "a closing parenthesis is missing";
     case mu::ecUNEXPECTED_OPERATOR:
-      return "unexpected operator '" + token + "'";
+      return "unexpected operator '" + token + "'" +
+             (token == "*" ? "; powers are written x^y" : "");
     case mu::ecUNEXPECTED_PARENS:
       return "unexpected parenthesis '" + token + "'";
     case mu::ecUNEXPECTED_ARG_SEP:

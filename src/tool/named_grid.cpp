@@ -37,6 +37,8 @@ class Words {
     std::error_code error;  // folders can be opened like files
     if (std::filesystem::is_directory(path, error))
       throw BadInput("cannot read '" + path + "': it is a folder, not a file");
+    for (const char byte : {'\xef', '\xbb', '\xbf'})  // byte order mark of UTF-8
+      if (file_.peek() == static_cast<unsigned char>(byte)) file_.get();
   }
 
   bool next(std::string& word) {

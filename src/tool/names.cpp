@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/small_letters.hpp"
+
 namespace pnpbs::tool {
 namespace {
 
@@ -32,6 +34,8 @@ constexpr std::size_t longest_name = 64;  // longer texts resemble no name
 }  // namespace
 
 std::string nearest_name(std::string_view text, std::span<const std::string> names) {
+  for (const std::string& name : names)
+    if (to_lower_case(name) == to_lower_case(text)) return name;
   if (text.size() < 2 || text.size() > longest_name) return "";
   std::string nearest;
   std::size_t min = 1 + std::max<std::size_t>(1, text.size() / 3);

@@ -74,6 +74,7 @@ Outputs::Outputs(const Arguments& arguments, const Ranks& ranks)
     for (const std::string& input : inputs) refuse_to_replace(input, output.file.path());
   for (const std::string& path : {arguments.checkpoint, arguments.restart}) refuse_checkpoint(path);
   check_pictures(arguments);
+  check_order();
   if (arguments.at_centres) check_particles();
   if (ranks_.is_first()) check_writable();
 }
@@ -108,6 +109,14 @@ void Outputs::add_projections(const std::string& input) {
     if (std::ranges::none_of(outputs_, is_it))
       outputs_.push_back({io::OutputFile(path), nullptr, true});
   }
+}
+
+void Outputs::check_order() const {
+  const auto holds_elements = [](const Output& output) {
+    return output.is_nodes() && output.format->elements;
+  };
+  if (order_ == 2 && std::ranges::none_of(outputs_, holds_elements))
+    throw BadInput("--order: there is no file with elements; add --output FILE.vtu or FILE.msh");
 }
 
 void Outputs::check_pictures(const Arguments& arguments) const {

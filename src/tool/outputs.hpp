@@ -59,6 +59,7 @@ class Outputs {
   void add(const std::string& path, const FileFormat* format);
   void refuse_checkpoint(const std::string& path) const;
   void check_pictures(const Arguments& arguments) const;
+  void check_order() const;
   void check_writable() const;
   void check_particles() const;
   pnpbs_status ask_for_nodes(pnpbs_placement placement, pnpbs_particles particles) const;
