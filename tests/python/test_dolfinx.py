@@ -99,7 +99,7 @@ def check_regions(placement, expected):
 
 
 def check_meshes_with_regions(context):
-    for dim, d in ((2, 0.1), (3, 0.3)):
+    for dim, d in ((2, 0.1), (3, 0.1)):
         size = 0.3 * 0.6**(dim - 1)
         check_regions(placed(blocks(context, dim), d), {7: 0})
         check_regions(placed(blocks_with_regions(context, dim), d), {7: size, 20: size})
