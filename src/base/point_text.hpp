@@ -39,12 +39,15 @@ MessageText point_text(const std::array<double, Dim>& point) {
   return text_of_point(point, false, number_text);
 }
 
-// Returns the number with four digits, for messages that show only a magnitude.
+// Returns the number with four digits, for messages that show only a magnitude. Eastings and
+// northings in metres are whole numbers.
 inline std::string rounded_text(double value) {
   char text[40];
+  const bool whole = std::abs(value) >= 1e4 && std::abs(value) < 1e8;
   const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr;
-  return std::string(text, end);
+      whole ? std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 0)
+            : std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4);
+  return std::string(text, end.ptr);
 }
 
 // Returns the text of a point with rounded coordinates.

@@ -16,21 +16,20 @@ namespace pnpbs {
 namespace {
 
 // Formats a number with a decimal point, whatever the locale is.
-std::string text_of(double value, std::chars_format format, int digits) {
+std::string two_decimals(double value) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, format, digits);
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 2);
   return {text, end.ptr};
 }
-std::string two_decimals(double value) { return text_of(value, std::chars_format::fixed, 2); }
-std::string three_digits(double value) { return text_of(value, std::chars_format::general, 3); }
 
 Warning warning_of(const EdgeBand& band) {
   const double mean = band.ratio.mean;
+  const std::string from = rounded_text(band.from), to = rounded_text(band.to);
   return {WarningCode::spacing_missed,
-          "the nodes do not follow the spacing where it is " + three_digits(band.from) + " to " +
-              three_digits(band.to) + ": over " + std::to_string(band.ratio.edges) +
-              " edges, the mean length is " + two_decimals(mean) + " of it, with too " +
-              (mean > 1 ? "few" : "many") +
+          "the nodes do not follow the spacing where it is " +
+              (from == to ? from : from + " to " + to) + ": over " +
+              std::to_string(band.ratio.edges) + " edges, the mean length is " +
+              two_decimals(mean) + " of it, with too " + (mean > 1 ? "few" : "many") +
               " nodes; limit the growth of the spacing (option growth_limit), or allow more steps "
               "(option steps)",
           static_cast<std::int64_t>(band.ratio.edges), mean};
@@ -50,10 +49,10 @@ std::optional<Warning> warning_of_coarse_spacing(const Level<3>& level,
   const double d = spacing_variation(level).min;
   if (d <= kCoarse * side) return std::nullopt;
   return Warning(WarningCode::spacing_coarse,
-                 "the spacing is " + three_digits(d) + " or more, the longest side of the domain " +
-                     three_digits(side) +
+                 "the spacing is " + rounded_text(d) + " or more, the longest side of the domain " +
+                     rounded_text(side) +
                      ": nodes lie on corners, edges and curved surfaces only; use a spacing of " +
-                     three_digits(kRight * side) + " or less",
+                     rounded_text(kRight * side) + " or less",
                  0, d);
 }
 

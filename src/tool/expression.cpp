@@ -178,13 +178,19 @@ std::string word_at(const std::string& formula, std::size_t position) {
   return {begin, std::find_if_not(begin, formula.end(), in_word)};
 }
 
-std::string about_unknown(const std::string& token, const mu::Parser& parser) {
+std::string about_unknown(const mu::Parser::exception_type& error, const mu::Parser& parser) {
+  const std::string token = trimmed(error.GetToken()), formula = error.GetExpr();
+  const auto position = static_cast<std::size_t>(std::max(0, error.GetPos()));
   const auto first = static_cast<unsigned char>(token.empty() ? ' ' : token[0]);
   if (parser.GetFunDef().contains(token))
     return "'" + token + "' needs its arguments in parentheses";
-  if (std::isdigit(first)) return "'" + token + "' is no number";
+  if (std::isdigit(first)) return "'" + word_at(formula, position) + "' is no number";
   if (!std::isalpha(first) && first != '_') return "unexpected '" + token + "'";
   if (token == "z") return "unknown name 'z': this domain is in the plane and has x and y";
+  const std::size_t dist = formula.rfind("dist(", position);
+  if (dist != std::string::npos && formula.find(')', dist) > position)
+    return "unknown name '" + token +
+           "': a name of a group with blanks or signs is in quotes, as in dist('open sea')";
   return "unknown name '" + token + "'" + did_you_mean(token, known_names(parser));
 }
 
@@ -192,10 +198,7 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   const std::string token = trimmed(error.GetToken());
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
-      return about_unknown(!token.empty() && std::isdigit(static_cast<unsigned char>(token[0]))
-                               ? word_at(error.GetExpr(), static_cast<std::size_t>(error.GetPos()))
-                               : token,
-                           parser);
+      return about_unknown(error, parser);
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
     case mu::ecMISSING_PARENS:

@@ -120,6 +120,21 @@ DEPTHS = [
 ]
 
 
+NAMED = '--domain a.poly --name "1=open sea" --check --spacing "0.1 + 0*dist({})"'
+DEPTHS += [
+    Case("the name of a group in quotes", SQUARE, NAMED.format("'open sea'"), figures=FINE),
+    Case("the name of a group without quotes", SQUARE, NAMED.format("open sea"), **REFUSED,
+         says=("unknown name 'open': a name of a group with blanks or signs is in quotes",)),
+    # Locations in metres are whole numbers.
+    Case("eastings and northings in a warning, autowarefoundation/autoware_universe#3090",
+         {"a.poly": SQUARE["a.poly"].replace("1 0 0", "1 441000 6329000").replace(
+             "2 1 0", "2 442000 6329000").replace("3 1 1", "3 442000 6330000").replace(
+                 "4 0 1", "4 441000 6330000")},
+         "--domain a.poly --spacing 'x > 441500 ? 20 : 100'", says=(" near (4415", ", 63"),
+         omits=("e+0",)),
+]
+
+
 def options(text, **outcome):
     return Case(f"options: {text}", SQUARE, "--domain a.poly --spacing 0.1 " + text, **outcome)
 
