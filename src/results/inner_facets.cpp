@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/fixed_point.hpp"
 #include "base/space_vectors.hpp"
 #include "delaunay/volume/element_rule.hpp"
 #include "geometry/volume/triangles.hpp"
@@ -21,6 +22,25 @@ bool is_inner_triangle(const BoundaryTriangle& facet) {
 
 InnerFacets::InnerFacets(const Level<3>& level)
     : level_(level), any_(level.geometry.has_inner_surfaces()) {}
+
+double InnerFacets::covered_share() {
+  const FacetIndex<3>& sides = level_.geometry.domain().index().sides();
+  const auto facets = static_cast<std::int32_t>(level_.geometry.boundary().facets.size());
+  double area = 0;
+  for (std::int32_t f = 0; f < facets; ++f)
+    if (is_inner_triangle(sides.facet(f))) area += length(area_normal(sides.corners(f)));
+  const Nodes<3>& nodes = level_.nodes;
+  FixedPointSum share;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    if (!nodes.owned(i)) continue;
+    for (const InnerFacet& facet : at(i)) {
+      const auto& [a, b, c] = facet.nodes;
+      share.add(length(area_normal({nodes.position(a), nodes.position(b), nodes.position(c)})) /
+                area);
+    }
+  }
+  return level_.comm->allreduce_sum(share).value();
+}
 
 const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
   const Nodes<3>& nodes = level_.nodes;

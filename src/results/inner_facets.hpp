@@ -34,6 +34,9 @@ class InnerFacets {
   // Returns the faces whose node with the smallest id is node i. They are the same on every rank
   // that has the star of node i. The reference is valid until the next call.
   const std::vector<InnerFacet>& at(std::int64_t i);
+  // Returns the area of the faces of all ranks over that of the inner surfaces. Collective;
+  // requires inner surfaces, and the stars of all owned nodes.
+  double covered_share();
 
  private:
   // A face of node i together with one of its two tetrahedra.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/measuring_finish.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "base/point_text.hpp"
 #include "check/conformity.hpp"
 #include "method/constants.hpp"
 #include "results/element_angles.hpp"
+#include "results/inner_facets.hpp"
 #include "sizing/holding_spacing.hpp"
 
 namespace pnpbs {
@@ -61,6 +63,21 @@ void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unre
   unresolved.places = std::move(found.places);
 }
 
+// Warns of inner surfaces that the elements cross, because too few nodes lie on them. Faces of a
+// curved surface are smaller than the surface, by a few percent where d resolves it.
+void find_crossed_inner_surfaces(const Level<3>& level, RunState& run) {
+  constexpr double kFollowed = 0.9;
+  InnerFacets facets(level);
+  if (!facets.any()) return;
+  const double share = facets.covered_share();
+  if (share >= kFollowed) return;
+  run.warnings.emplace_back(
+      WarningCode::boundary_not_followed,
+      "faces of tetrahedra cover only " + std::to_string(std::lround(100 * share)) +
+          " percent of the inner surfaces: tetrahedra cross these, and regions do not have their "
+          "volumes; make the spacing smaller there");
+}
+
 }  // namespace
 
 // Triangles of the plane always conform, because their stars are constrained to the boundary.
@@ -76,6 +93,7 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
   unresolved = {};
   unresolved.faults = conformity.element_faults();
   if (conformity.holds()) {
+    if (results.kind() == GeometryKind::body) find_crossed_inner_surfaces(results.level(), run);
     find_small_angles(results.level(), run, unresolved);
     return true;
   }

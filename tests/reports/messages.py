@@ -56,6 +56,17 @@ def solids(form):
     return text
 
 
+def blocks(**corners):
+    """Blocks between two corners as the groups of an OBJ."""
+    text = ""
+    for k, (name, ends) in enumerate(corners.items()):
+        text += "".join("v {} {} {}\n".format(*(ends[(v >> axis) & 1][axis] for axis in range(3)))
+                        for v in range(8)) + f"g {name}\n"
+        text += "".join("f {} {} {} {}\n".format(*(8 * k + 1 + v for v in side)) for side in (
+            (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)))
+    return text
+
+
 GRID = """\
 ncols 4
 nrows 3
@@ -150,6 +161,13 @@ CASES = [
          "--domain a.obj --spacing 0.3 --inner shaft --inner bolt", code=BAD_INPUT,
          says=(" of surface 0 'housing' and triangle ", "\nInner surfaces may meet other triangles only "
                "in common edges and vertices"), omits=("--repair",)),
+
+    # ------------------------------------------------ regions
+    *[Case(f"a block as large as {times} d in a box",
+           {"a.obj": blocks(box=((0, 0, 0), (1, 1, 1)), block=((0.1, 0.2, 0.2), (0.4, 0.8, 0.8)))},
+           f"--domain a.obj --inner block --region 0.2,0.5,0.5:7 --spacing {0.3 / times}", **outcome)
+      for times, outcome in ((1, {"says": ("percent of the inner surfaces: tetrahedra cross these",)}),
+                             (3, {"omits": ("inner surfaces",)}))],
 
     # ------------------------------------------------ counts
     Case("vertices that are left out",
