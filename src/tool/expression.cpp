@@ -178,6 +178,8 @@ std::string word_at(const std::string& formula, std::size_t position) {
   return {begin, std::find_if_not(begin, formula.end(), in_word)};
 }
 
+constexpr const char* kQuotes = "quotes are for names of groups, as in dist('open sea')";
+
 std::string about_unknown(const mu::Parser::exception_type& error, const mu::Parser& parser) {
   const std::string token = trimmed(error.GetToken()), formula = error.GetExpr();
   const auto position = static_cast<std::size_t>(std::max(0, error.GetPos()));
@@ -185,6 +187,7 @@ std::string about_unknown(const mu::Parser::exception_type& error, const mu::Par
   if (parser.GetFunDef().contains(token))
     return "'" + token + "' needs its arguments in parentheses";
   if (std::isdigit(first)) return "'" + word_at(formula, position) + "' is no number";
+  if (first == '\'') return kQuotes;
   if (!std::isalpha(first) && first != '_') return "unexpected '" + token + "'";
   if (token == "z") return "unknown name 'z': this domain is in the plane and has x and y";
   const std::size_t dist = formula.rfind("dist(", position);
@@ -199,6 +202,8 @@ std::string in_words(const mu::Parser::exception_type& error, const mu::Parser& 
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
       return about_unknown(error, parser);
+    case mu::ecSTR_RESULT:
+      return kQuotes;
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
     case mu::ecMISSING_PARENS:

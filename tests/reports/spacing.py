@@ -26,6 +26,9 @@ FORMULAS = [
             says=("unexpected operator '*'; powers are written x^y",)),
     formula("0.1 + X", "a capital", **REFUSED, says=("unknown name 'X'; did you mean x?",)),
     formula("0.1e", "an exponent without digits", **REFUSED, says=("'0.1e' is no number",)),
+    *[Case(f"a formula in quotes twice: {text}", SQUARE, f"--domain a.poly --spacing {text}", **REFUSED,
+           says=("quotes are for names of groups, as in dist('open sea')",))
+      for text in (""" "'0.1 + 0.1*x'" """, """ '"0.1 + 0.1*x"' """)],
     formula("0.1 m", "a unit", **REFUSED, says=("unknown name 'm'",)),
     formula("1e-5", "too fine", **REFUSED, says=("the option max_nodes allows 100000000",)),
 ]
