@@ -246,11 +246,9 @@ P turned(const P& x) {
   return {y[0] + 0.1, d * y[1] - r * y[2] - 0.3, r * y[1] + d * y[2] + 0.7};
 }
 
-// Splits surfaces and checks the volumes of the regions; also when the surfaces are turned, so that
-// vertices lie on edges and faces up to rounding only, far from the origin, and in single
-// precision.
-Arranged expect_bodies(const std::vector<SurfaceSource>& sources,
-                       const std::vector<double>& volumes) {
+// Returns surfaces as they are; turned, so that vertices lie on edges and faces up to rounding
+// only; far from the origin; and in single precision.
+std::vector<std::vector<SurfaceSource>> variants(const std::vector<SurfaceSource>& sources) {
   const auto far = [](const P& x) {
     const P y = turned(x);
     return P{y[0] + 1e7, y[1] - 1e6, y[2]};
@@ -264,15 +262,23 @@ Arranged expect_bodies(const std::vector<SurfaceSource>& sources,
     }
     return y;
   };
-  const std::vector<std::function<P(const P&)>> maps{turned, far, single};
-  for (std::size_t m = 0; m < maps.size(); ++m) {
-    std::vector<SurfaceSource> others;
-    for (const SurfaceSource& source : sources) others.push_back(moved(source, maps[m]));
-    expect_volumes(checked(others).surface, volumes, m < 2 ? 1e-7 : 1e-5);
+  std::vector<std::vector<SurfaceSource>> variants{sources};
+  for (const auto& map : std::vector<std::function<P(const P&)>>{turned, far, single}) {
+    variants.emplace_back();
+    for (const SurfaceSource& source : sources) variants.back().push_back(moved(source, map));
   }
-  Arranged it = checked(sources);
-  expect_volumes(it.surface, volumes);
-  return it;
+  return variants;
+}
+
+// Splits surfaces in all variants and checks the volumes of the regions. Returns the first result.
+Arranged expect_bodies(const std::vector<SurfaceSource>& sources,
+                       const std::vector<double>& volumes) {
+  std::vector<Arranged> results;
+  for (const std::vector<SurfaceSource>& variant : variants(sources)) {
+    results.push_back(checked(variant));
+    expect_volumes(results.back().surface, volumes, results.size() < 4 ? 1e-7 : 1e-5);
+  }
+  return results[0];
 }
 
 // Checks that points have the same region only if they are in the same bodies. in(b, x) returns
@@ -442,6 +448,44 @@ START_TEST(a_baffle_goes_through_a_wall) {
 }
 END_TEST
 
+START_TEST(a_sheet_stands_on_the_floor) {
+  // Its lower edge lies within a triangle of the floor and is joined to it.
+  const std::vector<SurfaceSource> sources{
+      box({0, 0, 0}, {2, 1, 1}),
+      sheet({1.2, 0.1, 0}, {1.7, 0.3, 0}, {1.7, 0.3, 0.5}, {1.2, 0.1, 0.5})};
+  for (const std::vector<SurfaceSource>& variant : variants(sources)) {
+    const Arranged it = checked(variant);
+    const pnpbs::SurfaceEdges edges(it.surface);
+    std::array<int, 4> times{};
+    for (std::size_t e = 0; e < edges.count(); ++e) ++times.at(edges.sides(e).size());
+    ck_assert_int_eq(times[1], 3);
+    ck_assert_int_eq(times[3], 1);
+    ck_assert_int_eq(it.summary.new_vertices, 0);
+  }
+}
+END_TEST
+
+START_TEST(a_tip_touches_the_floor) {
+  SurfaceSource tip;
+  tip.vertices = {{1.5, 0.3, 0}, {1.7, 0.3, 0.5}, {1.3, 0.4, 0.5}, {1.3, 0.2, 0.5}};
+  tip.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  for (const auto& variant : variants({box({0, 0, 0}, {2, 1, 1}), named(tip, "a tip")})) {
+    const Arranged it = checked(variant);
+    ck_assert_int_eq(it.surface.triangles.size(), 12 + 2 + 4);
+    ck_assert_int_eq(it.summary.new_vertices, 0);
+  }
+}
+END_TEST
+
+START_TEST(short_coordinates_are_exact) {
+  // The gap of 1 is less than the tolerance of numbers of single precision.
+  constexpr double kSize = 0x1p18;
+  const Arranged it = checked(
+      {box({0, 0, 0}, {kSize, kSize, kSize}), box({0, 0, kSize + 1}, {kSize, kSize, 2 * kSize})});
+  ck_assert(it.summary.rounds == 0 && it.covered.empty());
+}
+END_TEST
+
 START_TEST(nothing_changes_if_new_vertices_are_needed_and_excluded) {
   const Triangulation given = joined({box({0, 0, 0}, {1, 1, 1}), box({0.5, 0.5, 0.5}, {2, 2, 2})});
   const Arranged it = arranged(given, SplitAt::given_vertices);
@@ -567,15 +611,24 @@ START_TEST(the_order_of_the_triangles_does_not_matter) {
 END_TEST
 
 TEST_SUITE(test_arrangement) {
-  return run_suite(
-      "arrangement",
-      {quotients_are_rounded_to_the_nearest_double, boxes_on_each_other_share_one_face,
-       equal_faces_become_one_without_new_vertices, shifted_boxes_share_a_part_of_a_face,
-       a_smaller_box_stands_on_a_face, many_stacked_boxes_share_faces_and_edges,
-       three_faces_lie_on_each_other, a_sheet_cuts_a_box, a_sheet_ends_on_the_sides_of_a_box,
-       vertices_on_edges_need_no_new_ones, a_baffle_goes_through_a_wall,
-       nothing_changes_if_new_vertices_are_needed_and_excluded, surfaces_that_do_not_meet_stay,
-       regions_of_crossing_boxes_are_those_of_their_bounds,
-       regions_of_crossing_balls_are_those_of_their_triangles, a_soup_of_triangles_is_split,
-       the_order_of_the_triangles_does_not_matter});
+  return run_suite("arrangement", {quotients_are_rounded_to_the_nearest_double,
+                                   boxes_on_each_other_share_one_face,
+                                   equal_faces_become_one_without_new_vertices,
+                                   shifted_boxes_share_a_part_of_a_face,
+                                   a_smaller_box_stands_on_a_face,
+                                   many_stacked_boxes_share_faces_and_edges,
+                                   three_faces_lie_on_each_other,
+                                   a_sheet_cuts_a_box,
+                                   a_sheet_ends_on_the_sides_of_a_box,
+                                   vertices_on_edges_need_no_new_ones,
+                                   a_baffle_goes_through_a_wall,
+                                   a_sheet_stands_on_the_floor,
+                                   a_tip_touches_the_floor,
+                                   short_coordinates_are_exact,
+                                   nothing_changes_if_new_vertices_are_needed_and_excluded,
+                                   surfaces_that_do_not_meet_stay,
+                                   regions_of_crossing_boxes_are_those_of_their_bounds,
+                                   regions_of_crossing_balls_are_those_of_their_triangles,
+                                   a_soup_of_triangles_is_split,
+                                   the_order_of_the_triangles_does_not_matter});
 }
