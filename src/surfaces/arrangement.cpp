@@ -539,6 +539,7 @@ class Arranger {
       sort_unique(meetings.exact);
       const bool near = meetings.near.count() > 0;
       if (!near && meetings.exact.empty()) break;
+      if (split_at == SplitAt::contacts && !near) return {};
       if (summary.rounds == kMostRounds) reject(meetings);
       ++summary.rounds;
       if (split_at == SplitAt::given_vertices && !meetings.near.crossings.empty()) return {};

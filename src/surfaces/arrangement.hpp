@@ -24,8 +24,12 @@ struct ArrangementSummary {
   double tolerance = 0;           // within which vertices were merged
 };
 
-// The vertices at which triangles may be split.
-enum class SplitAt { any_point, given_vertices };
+// The points at which triangles may be split.
+enum class SplitAt {
+  any_point,
+  contacts,       // where vertices and edges lie on other triangles
+  given_vertices  // the same, but without new vertices
+};
 
 // Splits triangles where they meet other than in common vertices and edges. Triangles that lie on
 // each other become one, which comes from the first of them; `covered` lists the others. Pieces
@@ -39,7 +43,9 @@ enum class SplitAt { any_point, given_vertices };
 // coordinates have fewer digits: far from the origin, and if those of a source are of single
 // precision.
 //
-// With SplitAt::given_vertices nothing changes if a new vertex is required.
+// Nothing changes if triangles would have to be split at other points than `split_at` allows. The
+// contacts include points at which edges cross, so that surfaces that cross in such points only are
+// split as well.
 //
 // The vertices of triangles must be welded and the triangles must have an area. New vertices follow
 // the given ones. The result does not depend on the number of threads. Takes O(n log n) time if

@@ -486,12 +486,28 @@ START_TEST(short_coordinates_are_exact) {
 }
 END_TEST
 
-START_TEST(nothing_changes_if_new_vertices_are_needed_and_excluded) {
-  const Triangulation given = joined({box({0, 0, 0}, {1, 1, 1}), box({0.5, 0.5, 0.5}, {2, 2, 2})});
-  const Arranged it = arranged(given, SplitAt::given_vertices);
-  ck_assert(it.covered.empty() && it.summary.split == 0);
-  ck_assert_int_eq(it.surface.triangles.size(), given.triangles.size());
-  ck_assert_int_eq(it.surface.vertices.size(), given.vertices.size());
+START_TEST(nothing_changes_where_splitting_is_excluded) {
+  const Triangulation crossing =
+      joined({box({0, 0, 0}, {1, 1, 1}), box({0.5, 0.4, 0.3}, {2, 2, 2})});
+  // These touch as well.
+  const Triangulation both = joined({box({0, 0, 0}, {1, 1, 1}), box({0.25, 0.25, 1}, {1, 2, 2}),
+                                     box({0.5, 0.4, 0.3}, {2, 2, 1.5})});
+  const Triangulation touching =
+      joined({box({0, 0, 0}, {1, 1, 1}), box({0.25, 0.25, 1}, {2, 2, 2})});
+  const auto expect_same = [](const Triangulation& given, SplitAt split_at) {
+    const Arranged it = arranged(given, split_at);
+    ck_assert(it.covered.empty() && it.summary.split == 0);
+    ck_assert_int_eq(it.surface.triangles.size(), given.triangles.size());
+    ck_assert_int_eq(it.surface.vertices.size(), given.vertices.size());
+  };
+  expect_same(crossing, SplitAt::given_vertices);
+  expect_same(crossing, SplitAt::contacts);
+  expect_same(both, SplitAt::contacts);
+  expect_same(touching, SplitAt::given_vertices);
+  const Arranged it = arranged(touching, SplitAt::contacts);
+  check_conforms(it.surface);
+  check_parts(it);
+  ck_assert(!it.covered.empty());
 }
 END_TEST
 
@@ -625,7 +641,7 @@ TEST_SUITE(test_arrangement) {
                                    a_sheet_stands_on_the_floor,
                                    a_tip_touches_the_floor,
                                    short_coordinates_are_exact,
-                                   nothing_changes_if_new_vertices_are_needed_and_excluded,
+                                   nothing_changes_where_splitting_is_excluded,
                                    surfaces_that_do_not_meet_stay,
                                    regions_of_crossing_boxes_are_those_of_their_bounds,
                                    regions_of_crossing_balls_are_those_of_their_triangles,
