@@ -511,6 +511,17 @@ START_TEST(nothing_changes_where_splitting_is_excluded) {
 }
 END_TEST
 
+START_TEST(new_vertices_have_names) {
+  Triangulation given = joined({box({0, 0, 0}, {1, 1, 1}), box({0.5, 0.4, 0.3}, {2, 2, 2})});
+  given.vertices.push_back({0.3, 0.3, 0.3});  // a point of a curve, which no surface has
+  const Arranged it = arranged(given);
+  ck_assert_int_eq(it.surface.given.size(), it.surface.vertices.size());
+  for (std::size_t v = given.vertices.size(); v < it.surface.vertices.size(); ++v)
+    ck_assert(it.surface.vertex_name(number_of(v)).text().starts_with("the intersection at ("));
+  ck_assert_int_gt(it.summary.new_vertices, 0);
+}
+END_TEST
+
 START_TEST(surfaces_that_do_not_meet_stay) {
   const Triangulation given =
       joined({ball({0, 0, 0}, 1, 8, 12), ball({0, 0, 0}, 0.5, 8, 12), box({3, 0, 0}, {4, 1, 1})});
@@ -642,6 +653,7 @@ TEST_SUITE(test_arrangement) {
                                    a_tip_touches_the_floor,
                                    short_coordinates_are_exact,
                                    nothing_changes_where_splitting_is_excluded,
+                                   new_vertices_have_names,
                                    surfaces_that_do_not_meet_stay,
                                    regions_of_crossing_boxes_are_those_of_their_bounds,
                                    regions_of_crossing_balls_are_those_of_their_triangles,
