@@ -542,7 +542,6 @@ class Arranger {
       if (split_at == SplitAt::contacts && !near) return {};
       if (summary.rounds == kMostRounds) reject(meetings);
       ++summary.rounds;
-      if (split_at == SplitAt::given_vertices && !meetings.near.crossings.empty()) return {};
       EdgeVertices within = vertices_in_edges(meetings.near);
       Splitting splitting(positions_, pieces_, kOnTriangle * tolerance_);
       if (near) {
@@ -550,9 +549,6 @@ class Arranger {
       } else {
         splitting.run(meetings.exact);
       }
-      if (split_at == SplitAt::given_vertices &&
-          splitting.points().count() > splitting.points().given_count())
-        return {};
       std::vector<Piece> pieces = std::move(splitting).result();
       round(splitting.points(), pieces);
       remaining = near ? pairs_between_old(meetings.exact, pieces) : std::vector<MeetingPair>{};

@@ -27,8 +27,7 @@ struct ArrangementSummary {
 // The points at which triangles may be split.
 enum class SplitAt {
   any_point,
-  contacts,       // where vertices and edges lie on other triangles
-  given_vertices  // the same, but without new vertices
+  contacts  // where vertices and edges lie on other triangles
 };
 
 // Splits triangles where they meet other than in common vertices and edges. Triangles that lie on
