@@ -42,6 +42,7 @@ module pnpbs
   public :: PNPBS_ERROR_CALLBACK, PNPBS_ERROR_MEMORY, PNPBS_ERROR_MPI, PNPBS_ERROR_KOKKOS
   public :: PNPBS_ERROR_UNSUPPORTED, PNPBS_ERROR_INTERNAL
   public :: PNPBS_BOUNDARY, PNPBS_INNER
+  public :: PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST, PNPBS_OVERLAP_OWN
   public :: PNPBS_REASON_OTHER, PNPBS_REASON_CROSSING, PNPBS_WARNING_UNKNOWN
   public :: PNPBS_WARNING_LEFT_OUT_OUTSIDE, PNPBS_WARNING_UNUSED_VERTICES
   public :: PNPBS_WARNING_REGION_POINTS, PNPBS_WARNING_SIMPLIFIED, PNPBS_WARNING_REPAIRED
@@ -115,6 +116,7 @@ module pnpbs
     procedure :: set_filled => domain_set_filled
     procedure :: set_repair => domain_set_repair
     procedure :: set_resurfaced => domain_set_resurfaced
+    procedure :: set_fragment => domain_set_fragment
     procedure :: add_hole => domain_add_hole
     procedure :: add_region => domain_add_region
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
@@ -1117,6 +1119,29 @@ contains
     character(len=*), intent(inout), optional :: errmsg
     call conclude('domain%set_resurfaced', c_domain_set_resurfaced(self%c, resolution), stat, &
                   errmsg)
+  end subroutine
+
+  !> Splits the surfaces of a domain in space where they cross, touch or lie on each other, so that
+  !> several solids and sheets become regions of one body with common nodes and facets. Each box,
+  !> ball, cylinder and level set is a solid, and so is each closed group of an added surface, which
+  !> are its triangles with one tag: a solid contains the points around which it winds, so triangles
+  !> of a cavity are oriented into it. The other triangles of a surface enclose a further solid.
+  !> The body is what any solid contains. Surfaces that enclose nothing are inner surfaces, and
+  !> parts of them outside of the body are left out. The first of several triangles that lie on each
+  !> other gives the tag. The k-th solid, counted from 1 in the order in which they are added (the
+  !> groups of a surface by tag), gives its elements the region tag k. add_region sets other tags,
+  !> and add_hole removes regions. Without this call, surfaces that touch are accepted if no solids
+  !> overlap and each surface ends on others, as for stacked boxes and for a sheet from side to side
+  !> of a box. Excludes
+  !> set_repair. Local.
+  !>   overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN: the region tag where
+  !>            solids overlap
+  subroutine domain_set_fragment(self, overlap, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    integer(c_int32_t), intent(in) :: overlap
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('domain%set_fragment', c_domain_set_fragment(self%c, overlap), stat, errmsg)
   end subroutine
 
   !> Removes the region around a point from the domain, up to the next curves or surfaces of either

@@ -50,6 +50,13 @@ module pnpbs_c
   integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0
   integer(c_int32_t), parameter :: PNPBS_INNER = 1
 
+  !> The region tag of a part of space that several solids contain; see pnpbs_domain_set_fragment.
+  !> PNPBS_OVERLAP_LAST and PNPBS_OVERLAP_FIRST: that of the solid added last or first.
+  !> PNPBS_OVERLAP_OWN: one for each combination of solids, following those of the solids.
+  integer(c_int32_t), parameter :: PNPBS_OVERLAP_LAST = 0
+  integer(c_int32_t), parameter :: PNPBS_OVERLAP_FIRST = 1
+  integer(c_int32_t), parameter :: PNPBS_OVERLAP_OWN = 2
+
   !> Warnings about the domain. In parentheses: what `count` and `value` of
   !> pnpbs_placement_get_warning_data are. More codes may be added: programs must expect numbers
   !> that they do not know. PNPBS_WARNING_UNKNOWN is none of the others. LEFT_OUT_OUTSIDE: curves or
@@ -432,6 +439,14 @@ module pnpbs_c
       type(c_ptr), value :: domain
       real(c_double), value :: resolution
       integer(c_int) :: c_domain_set_resurfaced
+    end function
+
+    function c_domain_set_fragment(domain, overlap) bind(C, name="pnpbs_domain_set_fragment")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: overlap
+      integer(c_int) :: c_domain_set_fragment
     end function
 
     function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) &

@@ -341,6 +341,30 @@ PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resol
  *                         of the bounding box of the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
 
+/** The region tag of a part of space that several solids contain; see pnpbs_domain_set_fragment.
+ *  PNPBS_OVERLAP_LAST and PNPBS_OVERLAP_FIRST: that of the solid added last or first.
+ *  PNPBS_OVERLAP_OWN: one for each combination of solids, following those of the solids. */
+#define PNPBS_OVERLAP_LAST 0
+#define PNPBS_OVERLAP_FIRST 1
+#define PNPBS_OVERLAP_OWN 2
+
+/** Splits the surfaces of a domain in space where they cross, touch or lie on each other, so that
+ *  several solids and sheets become regions of one body with common nodes and facets. Each box,
+ *  ball, cylinder and level set is a solid, and so is each closed group of an added surface, which
+ *  are its triangles with one tag: a solid contains the points around which it winds, so triangles
+ *  of a cavity are oriented into it. The other triangles of a surface enclose a further solid. The
+ *  body is what any solid contains. Surfaces that enclose nothing are inner surfaces, and parts
+ *  of them outside of the body are left out. The first of several triangles that lie on each other
+ *  gives the tag. The k-th solid, counted from 1 in the order in which they are added (the groups
+ *  of a surface by tag), gives its elements the region tag k. pnpbs_domain_add_region sets other
+ *  tags, and pnpbs_domain_add_hole removes regions. Without this call, surfaces that touch are
+ *  accepted if no solids overlap and each surface ends on others, as for stacked boxes and for a
+ *  sheet from side to side of a box; others are an error of pnpbs_domain_check. Intersections are
+ *  computed exactly and rounded once. Excludes pnpbs_domain_set_repair. Local. Errors:
+ *  PNPBS_ERROR_ARGUMENT.
+ *  @param[in] overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN */
+PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
+
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
  *  @param[in] closed        nonzero: a segment joins the last vertex to the first; the first vertex

@@ -224,6 +224,23 @@ pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution)
   return change_volume(domain, [&](VolumeDomain& volume) { volume.set_repair(resolution, true); });
 }
 
+pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    switch (overlap) {
+      case PNPBS_OVERLAP_LAST:
+        return volume.set_fragment(OverlapRule::last);
+      case PNPBS_OVERLAP_FIRST:
+        return volume.set_fragment(OverlapRule::first);
+      case PNPBS_OVERLAP_OWN:
+        return volume.set_fragment(OverlapRule::own);
+      default:
+        throw Error(ErrorKind::argument,
+                    "overlap is " + std::to_string(overlap) +
+                        ", expected PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN");
+    }
+  });
+}
+
 pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled) {
   return change_volume(domain, [&](VolumeDomain& volume) { volume.set_filled(filled != 0); });
 }

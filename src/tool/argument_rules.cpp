@@ -61,6 +61,7 @@ void require_what_spheres_have(const Arguments& arguments) {
   refuse_if(arguments.at_centres, "--nodes-at");
   refuse_if(arguments.repair || arguments.repair_if_needed, "--repair");
   refuse_if(arguments.resurface.has_value(), "--resurface");
+  refuse_if(arguments.fragment.has_value(), "--fragment");
   refuse_if(arguments.feature_angle.has_value(), "--feature-angle");
   refuse_if(!arguments.inner.empty(), "--inner");
   refuse_if(!arguments.cut.empty(), "--cut");
@@ -140,6 +141,10 @@ void require_arguments_that_fit(const Arguments& arguments) {
         "give the resolution of --repair");
   if (arguments.resurface && (arguments.repair || arguments.repair_if_needed))
     refuse("--resurface and --repair exclude each other");
+  if (arguments.fragment && (arguments.repair || arguments.repair_if_needed || arguments.resurface))
+    refuse("--fragment excludes --repair and --resurface");
+  if (arguments.fragment && arguments.surfaces_only)
+    refuse("--fragment and --surfaces-only exclude each other");
   if (!arguments.cut.empty()) cut_plane_in(arguments.cut);
 }
 
@@ -159,6 +164,7 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
   if (dimension == 2 && (arguments.repair || arguments.repair_if_needed))
     refuse("--repair is for surfaces in space" + plane);
   if (dimension == 2 && arguments.resurface) refuse("--resurface is for surfaces in space" + plane);
+  if (dimension == 2 && arguments.fragment) refuse("--fragment is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);

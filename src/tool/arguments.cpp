@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,6 +133,17 @@ void take_repair(const std::vector<std::string>& text, Arguments& arguments) {
   if (!numbers || numbers->size() != 1 || !((*numbers)[0] > 0))
     refuse("--repair: expected a positive resolution or auto, found '" + text[0] + "'");
   arguments.repair = (*numbers)[0];
+}
+
+void take_fragment(const std::vector<std::string>& text, Arguments& arguments) {
+  static const std::map<std::string, int> rules{{"", PNPBS_OVERLAP_LAST},
+                                                {"last", PNPBS_OVERLAP_LAST},
+                                                {"first", PNPBS_OVERLAP_FIRST},
+                                                {"own", PNPBS_OVERLAP_OWN}};
+  const auto rule = rules.find(text.empty() ? "" : text[0]);
+  if (rule == rules.end())
+    refuse("--fragment: expected last, first or own, found '" + text[0] + "'");
+  arguments.fragment = rule->second;
 }
 
 void take_resurfacing(const std::vector<std::string>& text, Arguments& arguments) {
@@ -392,6 +404,19 @@ void add_repair(CLI::App& app, Arguments& arguments) {
       ->group("What to fill");
 }
 
+void add_fragment(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<std::vector<std::string>>(
+         "--fragment",
+         [&arguments](const std::vector<std::string>& text) { take_fragment(text, arguments); },
+         "in space: split surfaces where they meet: the closed groups of the\n"
+         "file and the sheets between become regions of one body; where\n"
+         "groups overlap, the elements have the tag of the last one (or the\n"
+         "first), or own: a tag for each combination")
+      ->expected(0, 1)
+      ->type_name("[last|first|own]")
+      ->group("What to fill");
+}
+
 void add_surfaces_only(CLI::App& app, Arguments& arguments) {
   app.add_flag("--surfaces-only", arguments.surfaces_only,
                "in space: place nodes and triangles only on the surfaces, which\n"
@@ -563,6 +588,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_curves(app, arguments);
   add_geo(app, arguments);
   add_repair(app, arguments);
+  add_fragment(app, arguments);
   add_surfaces_only(app, arguments);
   add_nodes_at(app, arguments);
   add_groups(app, arguments, texts);

@@ -67,7 +67,8 @@ struct Arguments {
   std::optional<double> repair;     // resolution of the repair, 0 for the default
   std::optional<double> resurface;  // resolution of the resurfacing, 0 for the default
   bool repair_if_needed = false;
-  bool surfaces_only = false;  // no nodes inside the surfaces
+  std::optional<std::int32_t> fragment;  // the rule for overlaps, PNPBS_OVERLAP_LAST, ...
+  bool surfaces_only = false;            // no nodes inside the surfaces
   bool bubbles = false;
   bool check = false;  // whether the results are checked
   bool nodes_only = false;

@@ -170,6 +170,7 @@ DomainSource::DomainSource(const Arguments& arguments)
       filled_(!arguments.surfaces_only),
       repair_(arguments.repair),
       resurface_(arguments.resurface),
+      fragment_(arguments.fragment),
       repair_if_needed_(arguments.repair_if_needed),
       quiet_(arguments.quiet),
       inner_(arguments.inner),
@@ -266,6 +267,7 @@ void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
   if (repair_) check(pnpbs_domain_set_repair(domain, *repair_), context);
   if (resurface_) check(pnpbs_domain_set_resurfaced(domain, *resurface_), context);
+  if (fragment_) check(pnpbs_domain_set_fragment(domain, *fragment_), context);
   if (is_msh()) return read_msh(domain, context);
   if (level_set_) return level_set_->add_to(domain, context);
   if (primitive_) return add(*primitive_, domain, context);

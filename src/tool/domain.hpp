@@ -88,6 +88,7 @@ class DomainSource {
   std::optional<double> snap_;  // likewise
   bool filled_;
   std::optional<double> repair_, resurface_;  // their resolutions
+  std::optional<std::int32_t> fragment_;      // the rule for overlaps
   bool repair_if_needed_, quiet_;
   std::vector<std::string> inner_;                           // groups
   std::vector<std::pair<std::int32_t, std::string>> names_;  // tags and their names

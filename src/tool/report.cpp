@@ -120,6 +120,9 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
   if (arguments.repair) report["repair"] = *arguments.repair;
   if (arguments.repair_if_needed) report["repair"] = "auto";
   if (arguments.resurface) report["resurface"] = *arguments.resurface;
+  if (arguments.fragment)
+    report["fragment"] =
+        std::array{"last", "first", "own"}[static_cast<std::size_t>(*arguments.fragment)];
   if (arguments.surfaces_only) report["surfaces_only"] = true;
   if (!arguments.inner.empty()) report["inner"] = arguments.inner;
   for (const Region& region : arguments.regions) report["regions"].push_back(region.text);

@@ -305,6 +305,198 @@ START_TEST(box_without_a_ball) {
 }
 END_TEST
 
+/* ---------------------------------------------------------------- solids ---------------- */
+
+static job solids_job(void) {
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  return it;
+}
+
+/* A box of 1 x .7 x .5 stands on one of 2 x 2 x 1, with its own triangles. Another one touches the
+ * sides of both. */
+START_TEST(boxes_that_touch) {
+  const double low[3][3] = {{0, 0, 0}, {0.3, 0.3, 1}, {2, 0.3, 0.2}},
+               high[3][3] = {{2, 2, 1}, {1.3, 1, 1.5}, {2.5, 0.9, 0.8}};
+  job it = solids_job();
+  elements e;
+  int b;
+  for (b = 0; b < 3; ++b) MUST(pnpbs_domain_add_box(it.domain, low[b], high[b], 10 + b));
+  it = placed(it, 0.2);
+  e = elements_of(&it, 3);
+  ck_assert_double_eq_tol(measure_with(&e, 1), 4, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 2), 0.35, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 3), 0.18, 1e-12);
+  check_mesh(&it, &e, 2);
+  MUST(pnpbs_placement_check(it.placement));
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* A box of side 1, one of side 1 shifted by half, and a small one within the overlap. The volumes
+ * with the tags of each rule follow from inclusion and exclusion. */
+START_TEST(boxes_that_overlap) {
+  const double low[3][3] = {{0, 0, 0}, {0.5, 0.5, 0.5}, {0.6, 0.6, 0.6}},
+               high[3][3] = {{1, 1, 1}, {1.5, 1.5, 1.5}, {0.9, 0.9, 0.9}};
+  const double overlap = 0.125, small = 0.027;
+  const struct {
+    int32_t rule;
+    double volumes[5]; /* with the tags 1 to 5 */
+  } cases[] = {{PNPBS_OVERLAP_LAST, {1 - overlap, 1 - small, small, 0, 0}},
+               {PNPBS_OVERLAP_FIRST, {1, 1 - overlap, 0, 0, 0}},
+               {PNPBS_OVERLAP_OWN, {1 - overlap, 1 - overlap, 0, overlap - small, small}}};
+  int c, b;
+  for (c = 0; c < COUNT_OF(cases); ++c) {
+    job it = solids_job();
+    elements e;
+    double others = 0;
+    for (b = 0; b < 3; ++b) MUST(pnpbs_domain_add_box(it.domain, low[b], high[b], 10 + b));
+    MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "cross at",
+              "pnpbs_domain_set_fragment");
+    MUST(pnpbs_domain_set_fragment(it.domain, cases[c].rule));
+    it = placed(it, 0.1);
+    e = elements_of(&it, 3);
+    for (b = 0; b < 5; ++b) {
+      if (c == 2 && b >= 3) {
+        others += measure_with(&e, b + 1);
+        continue;
+      }
+      ck_assert_double_eq_tol(measure_with(&e, b + 1), cases[c].volumes[b], 1e-12);
+    }
+    if (c == 2) ck_assert_double_eq_tol(others, overlap, 1e-12);
+    MUST(pnpbs_placement_check(it.placement));
+    elements_free(&e);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* A sheet that leaves a box on two sides divides it; what is outside is left out. Without a
+ * fragmentation it is rejected, because it could be a body with a hole. */
+START_TEST(box_with_a_sheet_across) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, in[3] = {0.1, 0.5, 0.5};
+  const double sheet[12] = {0.3, -1, -1, 0.3, 2, -1, 0.3, 2, 2, 0.3, -1, 2};
+  const int64_t corners[6] = {0, 1, 2, 0, 2, 3};
+  const int32_t tags[2] = {7, 7};
+  job it = solids_job();
+  elements e;
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  MUST(pnpbs_domain_add_surface(it.domain, PNPBS_BOUNDARY, 4, sheet, 2, corners, tags, 40));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "not closed",
+            "pnpbs_domain_set_fragment");
+  MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+  MUST(pnpbs_domain_add_region(it.domain, in, 5));
+  it = placed(it, 0.15);
+  e = elements_of(&it, 3);
+  ck_assert_double_eq_tol(measure_with(&e, 5), 0.3, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 1), 0.7, 1e-12);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* A ball that crosses a side of a box. A hole point removes the part outside of the box. Without
+ * the part inside, the others would meet in a circle only. */
+START_TEST(ball_across_a_side) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, middle[3] = {0.5, 0.5, 1},
+               holes[2][3] = {{0.5, 0.5, 1.1}, {0.5, 0.5, 0.9}};
+  const double half = 2 * PI / 3 * 0.027;
+  int with_hole;
+  for (with_hole = 0; with_hole < 3; ++with_hole) {
+    job it = solids_job();
+    elements e;
+    MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+    MUST(pnpbs_domain_add_ball(it.domain, middle, 0.3, 2));
+    MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_OWN));
+    if (with_hole) MUST(pnpbs_domain_add_hole(it.domain, holes[with_hole - 1]));
+    if (with_hole == 2) {
+      MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain),
+                "4 boundary triangles meet in the edge", "moved apart");
+      job_end(&it);
+      continue;
+    }
+    job_place(&it);
+    MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.1));
+    MUST_COMPUTE(pnpbs_placement_run(it.placement));
+    e = elements_of(&it, 3);
+    ck_assert_double_eq_tol(measure_with(&e, 1), 1 - half, 0.005);
+    ck_assert_double_eq_tol(measure_with(&e, 2), with_hole ? 0 : half, 0.005);
+    ck_assert_double_eq_tol(measure_with(&e, 3), half, 0.005);
+    elements_free(&e);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* Adds the triangles of the cube [low, high]^3 to a surface. Vertex i + 2 j + 4 k of the cube is at
+ * (i, j, k). */
+static void add_cube(double low, double high, int inwards, double* x, int64_t* vertices,
+                     int64_t* corners, int64_t* count) {
+  static const int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const int64_t first = *vertices;
+  int64_t v;
+  int q;
+  for (v = 0; v < 8; ++v, ++*vertices) {
+    x[3 * *vertices] = v % 2 ? high : low;
+    x[3 * *vertices + 1] = v / 2 % 2 ? high : low;
+    x[3 * *vertices + 2] = v / 4 ? high : low;
+  }
+  for (q = 0; q < 6; ++q)
+    add_quad(corners, count, first + quads[q][0], first + quads[q][inwards ? 3 : 1],
+             first + quads[q][2], first + quads[q][inwards ? 1 : 3]);
+}
+
+/* Within one group, a cube in a cube is a cavity if its triangles are oriented into it. */
+START_TEST(cube_in_a_cube) {
+  int inwards;
+  for (inwards = 0; inwards < 2; ++inwards) {
+    double x[48], volume;
+    int64_t corners[72], vertices = 0, count = 0;
+    job it = solids_job();
+    add_cube(0, 3, 0, x, &vertices, corners, &count);
+    add_cube(1, 2, inwards, x, &vertices, corners, &count);
+    MUST(
+        pnpbs_domain_add_surface(it.domain, PNPBS_BOUNDARY, vertices, x, count, corners, NULL, 40));
+    MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+    MUST(pnpbs_domain_measure(it.domain, &volume));
+    ck_assert_double_eq_tol(volume, inwards ? 26 : 27, 1e-12);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* A box with a wall, all in one group, whose edges at the wall have three triangles. They
+ * enclose one solid. */
+START_TEST(box_with_a_wall_in_one_group) {
+  job it = solids_job();
+  elements e;
+  add_divided_box(it.domain);
+  MUST(pnpbs_domain_set_role(it.domain, 40, PNPBS_BOUNDARY));
+  MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+  it = placed(it, 0.2);
+  e = elements_of(&it, 3);
+  ck_assert_double_eq_tol(measure_with(&e, 1), 2, 1e-12);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+START_TEST(bad_fragmentation) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  job it = solids_job();
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_set_fragment(it.domain, 3), "overlap is 3",
+            "PNPBS_OVERLAP_OWN");
+  MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+  MUST(pnpbs_domain_set_repair(it.domain, 0));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "exclude each other", "");
+  job_end(&it);
+}
+END_TEST
+
 /* ---------------------------------------------------------------- bad ones -------------- */
 
 START_TEST(bad_input) {
@@ -375,6 +567,13 @@ TEST_SUITE(test_regions) {
   tcase_add_test(good, tags_stay_with_the_elements);
   tcase_add_test(good, box_with_wall_and_balls);
   tcase_add_test(good, box_without_a_ball);
+  tcase_add_test(good, boxes_that_touch);
+  tcase_add_test(good, boxes_that_overlap);
+  tcase_add_test(good, box_with_a_sheet_across);
+  tcase_add_test(good, ball_across_a_side);
+  tcase_add_test(good, cube_in_a_cube);
+  tcase_add_test(good, box_with_a_wall_in_one_group);
+  tcase_add_test(bad, bad_fragmentation);
   tcase_add_test(bad, bad_input);
   tcase_add_test(bad, surfaces_alone_have_none);
   tcase_set_timeout(good, 0);

@@ -79,6 +79,13 @@ contains
     call domain%set_resurfaced(0.02d0)
     call expect(abs(volume(domain) - 1d0 / 6) < 1d-3, 'a tetrahedron with a new surface')
     call domain%destroy
+    ! Two tetrahedra overlap in one with half of their edges.
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, vertices, faces)
+    call domain%add_surface(PNPBS_BOUNDARY, vertices + spread([0.5d0, 0d0, 0d0], 2, 4), faces)
+    call domain%set_fragment(PNPBS_OVERLAP_OWN)
+    call expect(abs(volume(domain) - (2 - 0.125d0) / 6) < 1d-15, 'two tetrahedra that overlap')
+    call domain%destroy
     call domain%create(context, 3)
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)
     call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)

@@ -354,12 +354,24 @@ END_TEST
 START_TEST(surfaces_that_lie_on_each_other_or_touch_are_told) {
   VolumeDomain domain;
   domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
-  domain.add_box({1, 0.25, 0.25}, {2, 0.75, 0.75}, 1);
+  domain.add_box({0.5, 0.25, 0.25}, {1, 0.75, 0.75}, 1);
   expect_domain_error(domain, {"of box 0 and triangle", "of box 1 lie on each other at (1, "});
   VolumeDomain touching;
   touching.add_box({0, 0, 0}, {1, 1, 1}, 1);
-  tetrahedron({1, 0.25, 0.5}, {2, 0, 0}, {2, 1, 0}, {2, 0, 1}).add_to(touching);
+  tetrahedron({1, 0.25, 0.5}, {0.5, 0.2, 0.2}, {0.5, 0.7, 0.2}, {0.5, 0.2, 0.7}).add_to(touching);
   expect_domain_error(touching, {"of box 0 and triangle 0 of surface 0 touch at (1, 0.25, 0.5)"});
+}
+END_TEST
+
+// Outside, bodies may touch: they become regions of one.
+START_TEST(bodies_that_touch_outside_are_joined) {
+  VolumeDomain domain;
+  domain.add_box({0, 0, 0}, {1, 1, 1}, 1);
+  domain.add_box({1, 0.25, 0.25}, {2, 0.75, 0.75}, 1);
+  domain.check();
+  ck_assert_double_eq_tol(domain.volume(), 1.25, 1e-15);
+  ck_assert_double_eq_tol(domain.area(), 6 + 2, 1e-14);
+  ck_assert_ptr_nonnull(domain.regions());
 }
 END_TEST
 
@@ -401,19 +413,20 @@ START_TEST(figures_of_eight_are_told) {
 END_TEST
 
 TEST_SUITE(test_surface_checks) {
-  return run_suite("surface_checks",
-                   {points_join_the_nearest_before_them_as_a_search_of_all_finds,
-                    torn_surfaces_are_welded_in_silence_and_near_vertices_with_a_warning,
-                    triangles_without_area_go_and_leave_the_surface_closed,
-                    edges_split_on_one_side_stay_closed_by_triangles_without_area,
-                    flat_triangles_folded_over_by_rounding_are_mended,
-                    triangles_given_twice_count_once, a_surface_too_small_for_the_domain_is_refused,
-                    open_seams_are_told_with_triangle_vertices_and_place,
-                    edges_of_more_than_two_triangles_are_refused,
-                    bodies_that_touch_in_a_vertex_are_told_and_taken,
-                    triangles_turned_at_random_are_mended_to_the_same_mesh,
-                    bodies_that_are_inside_out_are_turned, a_moebius_strip_is_refused,
-                    crossing_surfaces_are_told_with_both_triangles_and_the_place,
-                    surfaces_that_lie_on_each_other_or_touch_are_told,
-                    neighbours_folded_over_are_told, figures_of_eight_are_told});
+  return run_suite(
+      "surface_checks",
+      {points_join_the_nearest_before_them_as_a_search_of_all_finds,
+       torn_surfaces_are_welded_in_silence_and_near_vertices_with_a_warning,
+       triangles_without_area_go_and_leave_the_surface_closed,
+       edges_split_on_one_side_stay_closed_by_triangles_without_area,
+       flat_triangles_folded_over_by_rounding_are_mended, triangles_given_twice_count_once,
+       a_surface_too_small_for_the_domain_is_refused,
+       open_seams_are_told_with_triangle_vertices_and_place,
+       edges_of_more_than_two_triangles_are_refused,
+       bodies_that_touch_in_a_vertex_are_told_and_taken,
+       triangles_turned_at_random_are_mended_to_the_same_mesh,
+       bodies_that_are_inside_out_are_turned, a_moebius_strip_is_refused,
+       crossing_surfaces_are_told_with_both_triangles_and_the_place,
+       surfaces_that_lie_on_each_other_or_touch_are_told, bodies_that_touch_outside_are_joined,
+       neighbours_folded_over_are_told, figures_of_eight_are_told});
 }

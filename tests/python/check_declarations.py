@@ -55,6 +55,7 @@ def constant_differences(constants, interface):
     for prefix, codes in (("WARNING", warnings.WarningCode), ("REASON", errors.ErrorReason)):
         own |= {f"PNPBS_{prefix}_{code.name}": code.value for code in codes}
     own |= {"PNPBS_BOUNDARY": interface.BOUNDARY, "PNPBS_INNER": interface.INNER}
+    own |= {f"PNPBS_OVERLAP_{name.upper()}": rule for name, rule in interface.OVERLAPS.items()}
     for name in sorted(set(wanted) | set(own)):
         if wanted.get(name) != own.get(name):
             yield f"{name}: {wanted.get(name)} in C, {own.get(name)} in Python"

@@ -572,6 +572,15 @@ class Domains(Case):
         domain.add_surface(corners, [(0, 1, 3), (0, 2, 1), (1, 2, 3), (0, 2, 3)])
         self.assertAlmostEqual(domain.set_repair(0.02).measure(), 1 / 6, delta=1e-15)
         self.assertAlmostEqual(domain.set_resurfaced(0.02).measure(), 1 / 6, delta=1e-3)
+        # Two tetrahedra overlap in one with half of their edges.
+        domain = pnpbs.Domain(self.context, dim=3)
+        for shift in (0, 0.5):
+            domain.add_surface(corners + (shift, 0, 0), [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+        with self.assertRaisesRegex(pnpbs.PNPBSError, "set_fragment"):
+            domain.measure()
+        self.assertAlmostEqual(domain.set_fragment("own").measure(), (2 - 1 / 8) / 6)
+        with self.assertRaisesRegex(ValueError, "overlap is 'all'"):
+            domain.set_fragment("all")
         with self.assertRaisesRegex(ValueError, "corners"):
             domain.add_surface(corners, [(0, 1)])
 

@@ -17,6 +17,7 @@ from ._library import open_library
 
 BOUNDARY = 0
 INNER = 1
+OVERLAPS = {"last": 0, "first": 1, "own": 2}
 
 DECLARATIONS = """
 const char *pnpbs_status_string(pnpbs_status status);
@@ -56,6 +57,7 @@ pnpbs_status pnpbs_domain_dimension(pnpbs_domain domain, int32_t *dim);
 pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
 pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
 pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
+pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
     int64_t n, const double *coordinates, const int32_t *tags, double corner_angle);
 pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,

@@ -456,6 +456,29 @@ class Domain(Handle):
           of the longest side of the bounding box of the triangles."""
         return self._call("set_resurfaced", float(resolution))
 
+    def set_fragment(self, overlap: str = "last") -> Domain:
+        """Splits the surfaces of a domain in space where they cross, touch or lie on each other, so
+        that several solids and sheets become regions of one body with common nodes and facets.
+
+        Each box, ball, cylinder and level set is a solid, and so is each closed group of an added
+        surface, which are its triangles with one tag: a solid contains the points around which it
+        winds, so triangles of a cavity are oriented into it. The other triangles of a surface
+        enclose a further solid. The body is what any solid contains. Surfaces that enclose nothing
+        are inner surfaces, and parts of them outside of the body are left out. The first of
+        several triangles that lie on each other gives the tag. The k-th solid, counted from 1 in the order
+        in which they are added (the groups of a surface by tag), gives its elements the region tag
+        k. `add_region` sets other tags, and `add_hole` removes regions.
+
+        Without this call, surfaces that touch are accepted if no solids overlap and each surface
+        ends on others, as for stacked boxes and for a sheet from side to side of a box. Excludes `set_repair`.
+
+        - `overlap`: the region tag where solids overlap: "last" or "first", that of the solid
+          added last or first, or "own", one for each combination of solids, following those of the
+          solids."""
+        if overlap not in _interface.OVERLAPS:
+            raise ValueError(f'overlap is {overlap!r}, expected "last", "first" or "own"')
+        return self._call("set_fragment", _interface.OVERLAPS[overlap])
+
     # ------------------------------------------------------------ files and tags ---------------
 
     def read_msh(self, path: Path, feature_angle: float = 40.0) -> Domain:

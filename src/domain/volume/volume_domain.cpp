@@ -310,6 +310,11 @@ void VolumeDomain::set_repair(double resolution, bool sound_too) {
   checked_ = false;
 }
 
+void VolumeDomain::set_fragment(OverlapRule overlap) {
+  fragment_ = overlap;
+  checked_ = false;
+}
+
 void VolumeDomain::take_repair_of(const VolumeDomain& body) {
   taken_distances_ = body.repair_distances();
   taken_warnings_.clear();
@@ -381,8 +386,41 @@ void VolumeDomain::set_filled(bool filled) {
   filled_ = filled;
 }
 
-std::unique_ptr<ResolvedVolume> VolumeDomain::resolve() const {
-  return resolve_volume({surfaces_, roles_, polylines_, region_points_, given_nodes_, filled_});
+GivenVolume VolumeDomain::given() const {
+  return {surfaces_, roles_, polylines_, region_points_, given_nodes_, filled_};
+}
+
+// Returns the domain of the surfaces as they are given or, if several only touch, split there.
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_touching() const {
+  GivenVolume given = this->given();
+  try {
+    return resolve_volume(given);
+  } catch (const BrokenSurface& error) {
+    if (!filled_) throw;
+    try {
+      given.contacts = GivenVolume::Contacts::touching;
+      if (has_several_groups()) return resolve_volume(given);
+    } catch (const BrokenSurface&) {
+      // The error of the surfaces as they are given says more.
+    }
+    reject_domain(error.message() +
+                  "; pnpbs_domain_set_fragment (in the command --fragment) makes several bodies "
+                  "and sheets regions of one, and pnpbs_domain_set_repair (--repair) takes the "
+                  "body that defective triangles enclose");
+  }
+}
+
+std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_fragments() const {
+  GivenVolume given = this->given();
+  given.contacts = GivenVolume::Contacts::any;
+  given.overlap = *fragment_;
+  return resolve_volume(given);
+}
+
+bool VolumeDomain::has_several_groups() const {
+  return surfaces_.size() > 1 ||
+         std::ranges::adjacent_find(surfaces_[0].tags, std::ranges::not_equal_to()) !=
+             surfaces_[0].tags.end();
 }
 
 // Returns null if the surfaces need a repair. Surfaces alone are valid if they would bound a valid
@@ -391,12 +429,13 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_if_sound() const {
   if (repair_sound_) return nullptr;
   std::unique_ptr<ResolvedVolume> resolved;
   try {
-    resolved = filled_ ? resolve() : resolve_volume({surfaces_, roles_, {}, {}, {}, true});
+    resolved =
+        filled_ ? resolve_volume(given()) : resolve_volume({surfaces_, roles_, {}, {}, {}, true});
   } catch (const BrokenSurface&) {
     return nullptr;
   }
   if (!resolved->wound_once) return nullptr;
-  if (!filled_) resolved = resolve();
+  if (!filled_) resolved = resolve_volume(given());
   resolved->warnings.emplace_back(
       WarningCode::repaired,
       "not repaired: the body is sound as it is given; pnpbs_domain_set_resurfaced (in the command "
@@ -420,20 +459,14 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_repaired() const {
 
 void VolumeDomain::check() {
   if (checked_) return;
+  if (fragment_ && repair_)
+    reject_domain("pnpbs_domain_set_fragment and pnpbs_domain_set_repair exclude each other");
   std::unique_ptr<ResolvedVolume> resolved;
   if (repair_) {
     resolved = resolve_if_sound();
     if (!resolved) resolved = resolve_repaired();
   } else {
-    try {
-      resolved = resolve();
-    } catch (const BrokenSurface& error) {
-      if (!filled_) throw;
-      reject_domain(
-          error.message() +
-          "; pnpbs_domain_set_repair (in the command --repair) accepts such triangles and "
-          "uses the body that they enclose");
-    }
+    resolved = fragment_ ? resolve_fragments() : resolve_touching();
   }
   if (resolved->repair.resolution == 0) resolved->repair = taken_distances_;
   for (const std::vector<Warning>* more : {&taken_warnings_, &given_warnings_})

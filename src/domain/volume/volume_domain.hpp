@@ -22,6 +22,7 @@
 #include "implicit/level_set.hpp"
 #include "implicit/repaired_body.hpp"
 #include "sphere/embedding.hpp"
+#include "surfaces/solids.hpp"
 #include "surfaces/triangulation.hpp"
 
 namespace pnpbs {
@@ -79,6 +80,8 @@ struct ResolvedVolume {
   std::unique_ptr<const RegionIndex<3>> regions;  // null if no region has a tag
 };
 
+struct GivenVolume;
+
 // A domain in space, filled or as surfaces alone.
 class VolumeDomain : public DomainBase<3> {
  public:
@@ -106,6 +109,9 @@ class VolumeDomain : public DomainBase<3> {
   // the surface of the body that they approximately enclose. `resolution` 0 means the default
   // (implicit/repaired_body.hpp). With `sound_too`, valid surfaces are replaced as well.
   void set_repair(double resolution, bool sound_too = false);
+  // Splits surfaces where they meet: the solids that they describe and the sheets between become
+  // regions of one body. `overlap` decides the tags of regions in several solids.
+  void set_fragment(OverlapRule overlap);
   // Reports the repair of `body`, from which this domain was made, as a repair of this domain.
   void take_repair_of(const VolumeDomain& body);
   // Adds a curve inside, with one tag per segment.
@@ -151,7 +157,10 @@ class VolumeDomain : public DomainBase<3> {
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
-  std::unique_ptr<ResolvedVolume> resolve() const;
+  GivenVolume given() const;
+  std::unique_ptr<ResolvedVolume> resolve_touching() const;
+  std::unique_ptr<ResolvedVolume> resolve_fragments() const;
+  bool has_several_groups() const;
   std::unique_ptr<ResolvedVolume> resolve_if_sound() const;
   std::unique_ptr<ResolvedVolume> resolve_repaired() const;
   std::vector<SurfaceSource> repaired_surfaces(std::vector<Warning>& warnings,
@@ -166,6 +175,7 @@ class VolumeDomain : public DomainBase<3> {
   bool filled_ = true;
   std::optional<double> repair_;  // resolution of the repair, if one is requested
   bool repair_sound_ = false;
+  std::optional<OverlapRule> fragment_;  // set if surfaces are split where they meet
   // The repair of another domain; see take_repair_of().
   RepairDistances taken_distances_;
   std::vector<Warning> taken_warnings_;

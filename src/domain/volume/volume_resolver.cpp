@@ -26,6 +26,7 @@
 #include "geometry/volume/triangles.hpp"
 #include "geometry/volume/welding.hpp"
 #include "predicates/expansion.hpp"
+#include "surfaces/arrangement.hpp"
 #include "surfaces/nesting.hpp"
 #include "surfaces/surface_checks.hpp"
 #include "surfaces/surface_edges.hpp"
@@ -146,12 +147,16 @@ VolumeExtent extent_of(const BoundaryMesh<3>& mesh) {
 
 class Resolver {
  public:
+  using Contacts = GivenVolume::Contacts;
+
   Resolver(const GivenVolume& given, ResolvedVolume& result)
       : surfaces_(given.surfaces),
         polylines_(given.polylines),
         region_points_(given.region_points),
         fixed_nodes_(given.fixed_nodes),
         filled_(given.filled),
+        contacts_(given.filled ? given.contacts : Contacts::none),
+        overlap_(given.overlap),
         result_(result) {}
 
   void run(const GivenVolume& given) {
@@ -165,9 +170,11 @@ class Resolver {
     measure();
     weld();
     remove_thin_triangles(surface_, kSameVertex * size_, result_.warnings);
-    remove_duplicate_triangles(surface_, result_.warnings);
+    if (!splits()) remove_duplicate_triangles(surface_, result_.warnings);
     require_triangles_of_all();
-    if (filled_) {
+    if (splits()) {
+      split();
+    } else if (filled_) {
       find_roles_of_dividing(surface_);
       find_roles_by_location(surface_);
     }
@@ -175,14 +182,18 @@ class Resolver {
     SurfaceEdges edges(surface_);
     require_closed_boundary(surface_, edges);
     warn_of_touching_vertices(surface_, edges, result_.warnings);
-    orient_surfaces(surface_, edges, OneSided::rejected, result_.warnings);
+    orient(edges);
     tree_ = tree_of(surface_);
     reject_crossings(surface_, tree_);
     segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
     check_segments(segments_, surface_, tree_, kSamePoint * size_);
     regions_.emplace(surface_, edges, tree_);
-    inside_ = inside_by_parity(surface_, *regions_);
-    result_.wound_once = is_wound_once();
+    if (splits()) {
+      find_solids_around(*regions_);
+    } else {
+      inside_ = inside_by_parity(surface_, *regions_);
+      result_.wound_once = is_wound_once();
+    }
     turn_outwards();
     apply_region_points();
     make_mesh();
@@ -282,6 +293,71 @@ class Resolver {
                             ", which is negligible in a domain of size " + number_text(size_));
   }
 
+  // ------------------------------------------------------------ solids
+  bool splits() const { return contacts_ != Contacts::none; }
+
+  // Splits the surfaces where they meet, and determines the roles of the pieces from the solids on
+  // both sides of them.
+  void split() {
+    solids_.emplace(surface_);
+    const bool any = contacts_ == Contacts::any;
+    const ArrangementSummary summary = arrange(
+        surface_, kSameVertex * size_, any ? SplitAt::any_point : SplitAt::contacts, parts_);
+    for (std::int32_t t = 0; t < triangle_count(); ++t)
+      parts_.push_back({t, surface_.triangles[t]});
+    const SurfaceEdges edges(surface_);
+    const BoxTree<3> tree = tree_of(surface_);
+    if (summary.rounds == 0) reject_crossings(surface_, tree);  // They may have been left alone.
+    const SurfaceRegions regions(surface_, edges, tree);
+    if (contacts_ == Contacts::touching) require_attached(edges);
+    find_solids_around(regions);
+    for (std::int32_t t = 0; t < triangle_count(); ++t) {
+      SurfaceTriangle& triangle = surface_.triangles[t];
+      triangle.inner = inside_[regions.front(t)] == inside_[regions.back(t)];
+      triangle.by_place = triangle.dividing = false;
+    }
+  }
+
+  // Rejects a surface that ends inside or outside of others, because it may be a body with a hole.
+  // Surfaces with the role inner may end anywhere.
+  void require_attached(const SurfaceEdges& edges) const {
+    for (std::size_t e = 0; e < edges.count(); ++e)
+      if (edges.boundary_sides(e).size() == 1 && edges.sides(e).size() == 1)
+        throw BrokenSurface(surface_.triangle_name(edges.sides(e)[0].triangle) + " is open");
+  }
+
+  // Rejects holes that leave parts of the body connected by edges only.
+  void require_closed_around_holes() const {
+    Triangulation boundary = surface_;
+    boundary.triangles.clear();
+    for (std::int32_t t = 0; t < triangle_count(); ++t)
+      if (inside_[front_[t]] != inside_[back_[t]]) {
+        boundary.triangles.push_back(surface_.triangles[t]);
+        boundary.triangles.back().inner = false;
+      }
+    require_closed_boundary(boundary, SurfaceEdges(boundary));
+  }
+
+  // Determines which regions are inside, and their tags.
+  void find_solids_around(const SurfaceRegions& regions) {
+    const std::vector<std::vector<std::int32_t>> around =
+        solids_->around(surface_, parts_, regions);
+    inside_.clear();
+    for (const std::vector<std::int32_t>& solids : around) {
+      if (contacts_ == Contacts::touching && solids.size() > 1)
+        throw BrokenSurface(solids_->name(solids[0]) + " and " + solids_->name(solids[1]) +
+                            " overlap");
+      inside_.push_back(!solids.empty());
+    }
+    tags_of_solids_ = tags_of_regions(around, solids_->count(), overlap_);
+  }
+
+  // Pieces of several solids can have any orientation, so turning them is not worth a warning.
+  void orient(SurfaceEdges& edges) {
+    std::vector<Warning> unimportant;
+    orient_surfaces(surface_, edges, OneSided::rejected, splits() ? unimportant : result_.warnings);
+  }
+
   // ------------------------------------------------------------ the inside
   // Returns true if the boundary triangles have winding number 1 or -1 inside and 0 outside. The
   // winding number behind a triangle is one more than that in front of it.
@@ -322,7 +398,7 @@ class Resolver {
       triangle.turn_around();
       std::swap(front_[t], back_[t]);
       const bool cavity = inside_[regions_->outside(regions_->component(t))];
-      if (!cavity && turned[triangle.source]++ == 0)
+      if (!cavity && !splits() && turned[triangle.source]++ == 0)
         names.push_back(surface_.sources[triangle.source]);
     }
     if (names.empty()) return;
@@ -350,6 +426,11 @@ class Resolver {
     const auto region_of = [this](std::size_t k) { return region_of_point(k); };
     remove_holes(region_points_, region_of, inside_, result_.warnings);
     region_tags_ = tags_of_parts(region_points_, region_of, inside_, result_.warnings);
+    if (!splits()) return;
+    require_closed_around_holes();
+    region_tags_.resize(inside_.size(), 0);
+    for (std::size_t region = 0; region < inside_.size(); ++region)
+      if (region_tags_[region] == 0) region_tags_[region] = tags_of_solids_[region];
   }
 
   // Returns the first triangle within the tolerance of the point, or -1.
@@ -515,6 +596,8 @@ class Resolver {
   const std::vector<RegionPoint<3>>& region_points_;
   const std::vector<FixedNode<3>>& fixed_nodes_;
   bool filled_;
+  Contacts contacts_;
+  OverlapRule overlap_;
   Triangulation surface_;
   double size_ = 0;
   std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // vertices of the given points
@@ -522,12 +605,15 @@ class Resolver {
   std::vector<CurveSegment> segments_;
   BoxTree<3> tree_;  // of the triangles
   std::optional<SurfaceRegions> regions_;
-  std::vector<char> inside_;                // per region
-  std::vector<std::int32_t> front_, back_;  // regions on both sides of each triangle
-  std::vector<std::int32_t> region_tags_;   // per region; empty if no tag is given
-  std::vector<char> kept_;                  // per triangle: is it part of the domain?
-  std::vector<char> on_surface_;            // per vertex: does a triangle have it?
-  std::vector<std::int32_t> number_;        // per vertex: its mesh node, or -1
+  std::vector<char> inside_;                  // per region
+  std::vector<std::int32_t> front_, back_;    // regions on both sides of each triangle
+  std::vector<std::int32_t> region_tags_;     // per region; empty if no tag is given
+  std::optional<Solids> solids_;              // if surfaces are split
+  std::vector<CoveredTriangle> parts_;        // of all solids, as they were given
+  std::vector<std::int32_t> tags_of_solids_;  // per region
+  std::vector<char> kept_;                    // per triangle: is it part of the domain?
+  std::vector<char> on_surface_;              // per vertex: does a triangle have it?
+  std::vector<std::int32_t> number_;          // per vertex: its mesh node, or -1
   std::int64_t triangles_kept_ = 0;
   ResolvedVolume& result_;
 };

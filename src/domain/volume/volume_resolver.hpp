@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "domain/volume/volume_domain.hpp"
+#include "surfaces/solids.hpp"
 
 namespace pnpbs {
 
@@ -19,6 +20,14 @@ struct GivenVolume {
   const std::vector<RegionPoint<3>>& region_points;
   const std::vector<FixedNode<3>>& fixed_nodes;
   bool filled;  // see VolumeDomain::set_filled
+  // How surfaces may meet other than in common vertices and edges. They are split there, and what
+  // they enclose becomes regions.
+  enum class Contacts {
+    none,
+    touching,  // solids may not overlap, and surfaces may not end elsewhere than on others
+    any
+  } contacts = Contacts::none;
+  OverlapRule overlap = OverlapRule::last;
 };
 
 // Welds the surfaces, checks and orients them, and finds the inside and the features. Throws

@@ -45,6 +45,9 @@ const PNPBS_ERROR_INTERNAL = -14
 
 const PNPBS_BOUNDARY = 0
 const PNPBS_INNER = 1
+const PNPBS_OVERLAP_LAST = 0
+const PNPBS_OVERLAP_FIRST = 1
+const PNPBS_OVERLAP_OWN = 2
 
 const PNPBS_REASON_OTHER = 0
 const PNPBS_REASON_CROSSING = 1
@@ -269,6 +272,10 @@ pnpbs_domain_set_filled(domain, filled) =
 pnpbs_domain_set_repair(domain, resolution) =
     @ccall $(symbol(:pnpbs_domain_set_repair))(
         domain::pnpbs_domain, resolution::Cdouble)::pnpbs_status
+
+pnpbs_domain_set_fragment(domain, overlap) =
+    @ccall $(symbol(:pnpbs_domain_set_fragment))(
+        domain::pnpbs_domain, overlap::Int32)::pnpbs_status
 
 pnpbs_domain_set_resurfaced(domain, resolution) =
     @ccall $(symbol(:pnpbs_domain_set_resurfaced))(

@@ -444,6 +444,33 @@ function set_resurfaced!(domain::Domain, resolution::Real = 0)
 end
 
 """
+    set_fragment!(domain, overlap = :last)
+
+Splits the surfaces of a domain in space where they cross, touch or lie on each other, so that
+several solids and sheets become regions of one body with common nodes and facets. Each box, ball,
+cylinder and level set is a solid, and so is each closed group of an added surface, which are its
+triangles with one tag: a solid contains the points around which it winds, so triangles of a cavity
+are oriented into it. The other triangles of a surface enclose a further solid. The body is what
+any solid contains. Surfaces that enclose nothing are inner surfaces, and parts of them outside of
+the body are left out. The first of several triangles that lie on each other gives the tag. The k-th
+solid, counted from 1 in the order in which they are added (the groups of a surface by tag), gives
+its elements the region tag k. [`add_region!`](@ref) sets other tags, and [`add_hole!`](@ref)
+removes regions. Without this call, surfaces that touch are accepted if no solids overlap and each
+surface ends on others, as for stacked boxes and for a sheet from side to side of a box. Excludes [`set_repair!`](@ref).
+
+`overlap` is the region tag where solids overlap: `:last` or `:first`, that of the solid added last
+or first, or `:own`, one for each combination of solids, following those of the solids.
+"""
+function set_fragment!(domain::Domain, overlap::Symbol = :last)
+    rules = (last = LibPNPBS.PNPBS_OVERLAP_LAST, first = LibPNPBS.PNPBS_OVERLAP_FIRST,
+             own = LibPNPBS.PNPBS_OVERLAP_OWN)
+    haskey(rules, overlap) ||
+        throw(ArgumentError("overlap is :$overlap, expected :last, :first or :own"))
+    check(domain.context, LibPNPBS.pnpbs_domain_set_fragment(live(domain), rules[overlap]))
+    return domain
+end
+
+"""
     set_corner_angle!(domain, corner_angle)
 
 Sets the corner angle of the graphs of a domain in the plane ([`add_pslg!`](@ref),

@@ -68,6 +68,12 @@ end
         broken = add_surface!(Domain(context; dim = 3), VERTICES, FACES)
         @test measure(set_repair!(broken, 0.02)) ≈ 1 / 6
         @test measure(set_resurfaced!(broken, 0.02)) ≈ 1 / 6 atol = 1e-3
+        # Two tetrahedra overlap in one with half of their edges.
+        both = add_surface!(Domain(context; dim = 3), VERTICES, FACES)
+        add_surface!(both, VERTICES .+ [0.5, 0, 0], FACES)
+        @test fails(() -> measure(both), :error_domain, "set_fragment")
+        @test measure(set_fragment!(both, :own)) ≈ (2 - 0.125) / 6
+        @test_throws ArgumentError set_fragment!(both, :all)
         add_hole!(body, (0.15, 0.15, 0.15))
         @test measure(body) ≈ (1 - 0.25^3) / 6
         mktempdir() do folder
