@@ -51,12 +51,13 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
   std::vector<Bytes> incoming;
   collective_try(comm, [&] {
     incoming = comm.exchange(halo.neighbours(), outgoing, failure);
+    outgoing = {};  // Frees its memory before the nodes take more.
     travel.reserve(nodes, kept, incoming);
   });
   // From here on no rank can fail, so no node is lost.
   collective_try(comm, [&] {
     neighbourhood.keep_nodes(nodes, stay, kept);
-    travel.append_arriving(nodes, incoming);
+    travel.append_arriving(nodes, std::move(incoming));
   });
   hops_ = hops;
   exact_at_ = nodes.positions();

@@ -45,6 +45,8 @@ class HaloExchange {
   void start(const Communicator& comm, const std::vector<int>& neighbours) {
     comm_ = &comm;
     exchange_.reset();
+    outgoing_ = {};
+    incoming_ = {};
     neighbours_ = neighbours;
     places_ = {};
     for (const int rank : neighbours) places_.add(rank);

@@ -37,7 +37,7 @@ struct NodeExchange {
 
   // Marks migrated nodes as ghosts, appends the nodes and ghosts that have arrived, and builds the
   // plan. Nodes that do not stay must have been removed. If it throws, the nodes are still valid.
-  void append_arriving(Nodes<Dim>& nodes, const std::vector<Bytes>& incoming) const;
+  void append_arriving(Nodes<Dim>& nodes, std::vector<Bytes> incoming) const;
 };
 
 template <int Dim>
@@ -81,8 +81,7 @@ void NodeExchange<Dim>::reserve(Nodes<Dim>& nodes, std::int64_t kept,
 }
 
 template <int Dim>
-void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes,
-                                        const std::vector<Bytes>& incoming) const {
+void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes, std::vector<Bytes> incoming) const {
   plan.for_received([&](std::int32_t i) { nodes.owned(i) = false; });
   const std::int64_t kept = nodes.count;
   reserve(nodes, kept, incoming);
@@ -91,6 +90,7 @@ void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes,
     leaf = tree.leaf_at(node.x, leaf);
     append(nodes, node, distribution.owns(leaf));
   });
+  incoming = {};  // Frees its memory before the plan takes more.
   for (std::int64_t i = kept; i < nodes.count; ++i) {
     leaf = tree.leaf_at(nodes.position(i), leaf);
     const auto node = static_cast<std::int32_t>(i);
