@@ -24,8 +24,12 @@ class GroupNames {
   void set(const GroupTag& group, std::string name) {
     names_.insert_or_assign(group, std::move(name));
   }
-  // Sets the name unless the tag has one.
-  void add(const GroupTag& group, const std::string& name) { names_.try_emplace(group, name); }
+  // Sets the name unless the tag has one. Returns whether it is set.
+  bool add(const GroupTag& group, const std::string& name) {
+    return names_.try_emplace(group, name).second;
+  }
+
+  void remove(const GroupTag& group) { names_.erase(group); }
 
   // Returns the name, or nullptr if the tag has none.
   const std::string* find(const GroupTag& group) const {

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/index.hpp"
@@ -47,11 +49,11 @@ std::vector<char> in_closed_component(const Triangulation& part, const SurfaceEd
   return closed;
 }
 
-std::string name_of_group(const Triangulation& given, const SurfaceTriangle& triangle) {
-  const std::string& source = given.sources[index(triangle.source)];
+// Returns the name of the triangle's group in its file, or an empty string.
+std::string group_name_of(const Triangulation& given, const SurfaceTriangle& triangle) {
   for (const auto& [tag, name] : given.tag_names[index(triangle.source)])
-    if (tag == triangle.tag) return source + " '" + name + "'";
-  return source + ", tag " + std::to_string(triangle.tag);
+    if (tag == triangle.tag) return name;
+  return "";
 }
 
 bool same_turn(const SurfaceTriangle& a, const SurfaceTriangle& b) {
@@ -65,12 +67,16 @@ bool same_turn(const SurfaceTriangle& a, const SurfaceTriangle& b) {
 
 Solids::Solids(const Triangulation& given) {
   std::vector<std::vector<std::int32_t>> of_source(given.sources.size());
+  std::set<std::tuple<std::int32_t, std::int32_t, std::array<std::int32_t, 3>>> met;
   of_.resize(given.sources.size());
   for (std::size_t t = 0; t < given.triangles.size(); ++t) {
     const SurfaceTriangle& triangle = given.triangles[t];
     std::vector<Membership>& of = of_[index(triangle.source)];
     of.resize(std::max(of.size(), index(triangle.number) + 1));
-    if (!triangle.inner || triangle.by_place || triangle.dividing)
+    if (triangle.inner && !triangle.by_place && !triangle.dividing) continue;
+    std::array<std::int32_t, 3> corners = triangle.vertices;
+    std::sort(corners.begin(), corners.end());
+    if (met.emplace(triangle.source, triangle.tag, corners).second)
       of_source[index(triangle.source)].push_back(static_cast<std::int32_t>(t));
   }
   for (const std::vector<std::int32_t>& triangles : of_source) {
@@ -78,11 +84,16 @@ Solids::Solids(const Triangulation& given) {
     for (const std::int32_t t : triangles) groups[given.triangles[index(t)].tag].push_back(t);
     std::vector<std::int32_t> others;
     for (const auto& [tag, group] : groups) {
-      if (groups.size() > 1 && is_closed(SurfaceEdges(part_of(given, group))))
-        add_solid(given, group, Kind::wound_around,
-                  name_of_group(given, given.triangles[index(group[0])]));
-      else
+      if (groups.size() == 1 || !is_closed(SurfaceEdges(part_of(given, group)))) {
         others.insert(others.end(), group.begin(), group.end());
+        continue;
+      }
+      const SurfaceTriangle& first = given.triangles[index(group[0])];
+      const std::string& source = given.sources[index(first.source)];
+      const std::string name = group_name_of(given, first);
+      add_solid(given, group, Kind::wound_around,
+                name.empty() ? source + ", tag " + std::to_string(tag) : source + " '" + name + "'",
+                name);
     }
     std::sort(others.begin(), others.end());
     const Triangulation rest = part_of(given, others);
@@ -91,17 +102,19 @@ Solids::Solids(const Triangulation& given) {
       std::vector<std::int32_t> chosen;
       for (std::size_t k = 0; k < others.size(); ++k)
         if ((closed[k] != 0) == (kind == Kind::wound_around)) chosen.push_back(others[k]);
-      if (!chosen.empty())
-        add_solid(given, chosen, kind,
-                  given.sources[index(given.triangles[index(chosen[0])].source)]);
+      if (chosen.empty()) continue;
+      const SurfaceTriangle& first = given.triangles[index(chosen[0])];
+      add_solid(given, chosen, kind, given.sources[index(first.source)],
+                groups.size() == 1 ? group_name_of(given, first) : "");
     }
   }
 }
 
 void Solids::add_solid(const Triangulation& given, const std::vector<std::int32_t>& triangles,
-                       Kind kind, const std::string& name) {
+                       Kind kind, std::string name, std::string group_name) {
   const auto solid = count();
-  names_.push_back(name);
+  names_.push_back(std::move(name));
+  group_names_.push_back(std::move(group_name));
   kinds_.push_back(kind);
   Triangulation part = part_of(given, triangles);
   if (kind == Kind::wound_around) {
@@ -212,18 +225,22 @@ std::vector<std::vector<std::int32_t>> Solids::around(const Triangulation& piece
   return around;
 }
 
-std::vector<std::int32_t> tags_of_regions(const std::vector<std::vector<std::int32_t>>& around,
-                                          std::int32_t solids, OverlapRule rule) {
+SolidTags tags_by_solids(const std::vector<std::vector<std::int32_t>>& around, OverlapRule rule) {
+  SolidTags tags;
+  for (const std::vector<std::int32_t>& solids : around)
+    for (const std::int32_t solid : solids) tags.of_solids.emplace(solid, 0);
+  std::int32_t count = 0;
+  for (auto& [solid, tag] : tags.of_solids) tag = ++count;
   std::map<std::vector<std::int32_t>, std::int32_t> overlaps;
-  std::vector<std::int32_t> tags;
-  for (const std::vector<std::int32_t>& in : around) {
-    if (in.empty()) {
-      tags.push_back(0);
-    } else if (rule == OverlapRule::own && in.size() > 1) {
-      const auto next = solids + 1 + static_cast<std::int32_t>(overlaps.size());
-      tags.push_back(overlaps.try_emplace(in, next).first->second);
+  for (const std::vector<std::int32_t>& solids : around) {
+    if (solids.empty()) {
+      tags.of_regions.push_back(0);
+    } else if (rule == OverlapRule::own && solids.size() > 1) {
+      const auto next = count + 1 + static_cast<std::int32_t>(overlaps.size());
+      tags.of_regions.push_back(overlaps.try_emplace(solids, next).first->second);
     } else {
-      tags.push_back(1 + (rule == OverlapRule::first ? in.front() : in.back()));
+      const std::int32_t solid = rule == OverlapRule::first ? solids.front() : solids.back();
+      tags.of_regions.push_back(tags.of_solids.at(solid));
     }
   }
   return tags;

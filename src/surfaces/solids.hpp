@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ enum class OverlapRule {
 // The solids of a triangulation before it is split. Each closed group of a source, which are its
 // triangles with one tag, is a solid: it contains the points around which it winds. The closed
 // components of the other triangles of a source form one solid together. Its remaining triangles
-// enclose a further solid. Triangles with the role inner belong to none.
+// enclose a further solid. Triangles with the role inner belong to none, and of several triangles
+// of a group with the same vertices only the first does.
 class Solids {
  public:
   // Edges with an odd number of triangles of a group make it open.
@@ -34,6 +36,11 @@ class Solids {
   // Returns a name for messages, such as "box 0" or "surface 0 'lower'".
   const std::string& name(std::int32_t solid) const {
     return names_[static_cast<std::size_t>(solid)];
+  }
+
+  // Returns the name that its group has in the file, or an empty string.
+  const std::string& group_name(std::int32_t solid) const {
+    return group_names_[static_cast<std::size_t>(solid)];
   }
 
   // Returns the solids that contain each region, in increasing order. `pieces` is the triangulation
@@ -55,19 +62,23 @@ class Solids {
   };
 
   void add_solid(const Triangulation& given, const std::vector<std::int32_t>& triangles, Kind kind,
-                 const std::string& name);
+                 std::string name, std::string group_name);
   const Membership& membership(const SurfaceTriangle& triangle) const {
     return of_[static_cast<std::size_t>(triangle.source)]
               [static_cast<std::size_t>(triangle.number)];
   }
 
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, group_names_;
   std::vector<Kind> kinds_;
   std::vector<std::vector<Membership>> of_;  // per source and number of a triangle
 };
 
-// Returns the tag of each region, which is 0 in no solid. Solid k has the tag k + 1.
-std::vector<std::int32_t> tags_of_regions(const std::vector<std::vector<std::int32_t>>& around,
-                                          std::int32_t solids, OverlapRule rule);
+// The tags of regions by the solids that contain them.
+struct SolidTags {
+  std::vector<std::int32_t> of_regions;            // 0 in no solid
+  std::map<std::int32_t, std::int32_t> of_solids;  // those that contain a region: 1, 2, ...
+};
+
+SolidTags tags_by_solids(const std::vector<std::vector<std::int32_t>>& around, OverlapRule rule);
 
 }  // namespace pnpbs

@@ -67,6 +67,14 @@ class Fragment(CommandTest):
         for tag, name in enumerate(VOLUMES, 1):
             self.assertAlmostEqual(found[tag], VOLUMES[name], 12, name)
 
+    def test_regions_have_the_names_of_groups(self):
+        self.run_command("--domain", self.model, "--fragment", "--spacing", 0.1,
+                         "--output", "a.msh")
+        names = meshio.read(self.folder / "a.msh").field_data
+        volumes = {int(tag): name for name, (tag, dimension) in names.items() if dimension == 3}
+        self.assertEqual({tag: volumes[tag] for tag in (1, 2, 3)},
+                         {1: "left", 2: "right", 3: "bar"})
+
     @unittest.skipUnless(os.environ.get("PNPBS_MPIEXEC"), "no MPI")
     def test_nodes_are_the_same_on_any_ranks(self):
         hashes = set()

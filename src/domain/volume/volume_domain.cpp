@@ -473,6 +473,10 @@ void VolumeDomain::check() {
     resolved->warnings.insert(resolved->warnings.begin(), more->begin(), more->end());
   resolved->index = SurfaceIndex(resolved->mesh, resolved->summary.bounds);
   resolved->mesh.node_distance = largest_node_distance(*resolved);
+  for (const GroupTag& region : named_by_groups_) names().remove(region);
+  named_by_groups_.clear();
+  for (const auto& [tag, name] : resolved->region_names)
+    if (names().add({3, tag}, name)) named_by_groups_.push_back({3, tag});
   resolved_ = std::move(resolved);
   checked_ = true;
 }

@@ -77,7 +77,8 @@ struct ResolvedVolume {
   // surroundings does not.
   bool wound_once = true;
   VolumeSummary summary;
-  std::unique_ptr<const RegionIndex<3>> regions;  // null if no region has a tag
+  std::unique_ptr<const RegionIndex<3>> regions;                   // null if no region has a tag
+  std::vector<std::pair<std::int32_t, std::string>> region_names;  // by their tags, from groups
 };
 
 struct GivenVolume;
@@ -175,7 +176,8 @@ class VolumeDomain : public DomainBase<3> {
   bool filled_ = true;
   std::optional<double> repair_;  // resolution of the repair, if one is requested
   bool repair_sound_ = false;
-  std::optional<OverlapRule> fragment_;  // set if surfaces are split where they meet
+  std::optional<OverlapRule> fragment_;    // set if surfaces are split where they meet
+  std::vector<GroupTag> named_by_groups_;  // regions whose names check() has set
   // The repair of another domain; see take_repair_of().
   RepairDistances taken_distances_;
   std::vector<Warning> taken_warnings_;

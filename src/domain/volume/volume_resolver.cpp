@@ -305,6 +305,12 @@ class Resolver {
         surface_, kSameVertex * size_, any ? SplitAt::any_point : SplitAt::contacts, parts_);
     for (std::int32_t t = 0; t < triangle_count(); ++t)
       parts_.push_back({t, surface_.triangles[t]});
+    if (summary.tolerance > kSameVertex * size_)
+      result_.warnings.emplace_back(WarningCode::vertices_merged,
+                                    "the coordinates have few digits, so that surfaces within " +
+                                        rounded_text(summary.tolerance) +
+                                        " of each other became one where they meet",
+                                    summary.covered, summary.tolerance);
     const SurfaceEdges edges(surface_);
     const BoxTree<3> tree = tree_of(surface_);
     if (summary.rounds == 0) reject_crossings(surface_, tree);  // They may have been left alone.
@@ -349,7 +355,7 @@ class Resolver {
                             " overlap");
       inside_.push_back(!solids.empty());
     }
-    tags_of_solids_ = tags_of_regions(around, solids_->count(), overlap_);
+    tags_ = tags_by_solids(around, overlap_);
   }
 
   // Pieces of several solids can have any orientation, so turning them is not worth a warning.
@@ -430,7 +436,10 @@ class Resolver {
     require_closed_around_holes();
     region_tags_.resize(inside_.size(), 0);
     for (std::size_t region = 0; region < inside_.size(); ++region)
-      if (region_tags_[region] == 0) region_tags_[region] = tags_of_solids_[region];
+      if (region_tags_[region] == 0) region_tags_[region] = tags_.of_regions[region];
+    for (const auto& [solid, tag] : tags_.of_solids)
+      if (!solids_->group_name(solid).empty())
+        result_.region_names.emplace_back(tag, solids_->group_name(solid));
   }
 
   // Returns the first triangle within the tolerance of the point, or -1.
@@ -605,15 +614,15 @@ class Resolver {
   std::vector<CurveSegment> segments_;
   BoxTree<3> tree_;  // of the triangles
   std::optional<SurfaceRegions> regions_;
-  std::vector<char> inside_;                  // per region
-  std::vector<std::int32_t> front_, back_;    // regions on both sides of each triangle
-  std::vector<std::int32_t> region_tags_;     // per region; empty if no tag is given
-  std::optional<Solids> solids_;              // if surfaces are split
-  std::vector<CoveredTriangle> parts_;        // of all solids, as they were given
-  std::vector<std::int32_t> tags_of_solids_;  // per region
-  std::vector<char> kept_;                    // per triangle: is it part of the domain?
-  std::vector<char> on_surface_;              // per vertex: does a triangle have it?
-  std::vector<std::int32_t> number_;          // per vertex: its mesh node, or -1
+  std::vector<char> inside_;                // per region
+  std::vector<std::int32_t> front_, back_;  // regions on both sides of each triangle
+  std::vector<std::int32_t> region_tags_;   // per region; empty if no tag is given
+  std::optional<Solids> solids_;            // if surfaces are split
+  std::vector<CoveredTriangle> parts_;      // of all solids, as they were given
+  SolidTags tags_;
+  std::vector<char> kept_;            // per triangle: is it part of the domain?
+  std::vector<char> on_surface_;      // per vertex: does a triangle have it?
+  std::vector<std::int32_t> number_;  // per vertex: its mesh node, or -1
   std::int64_t triangles_kept_ = 0;
   ResolvedVolume& result_;
 };
