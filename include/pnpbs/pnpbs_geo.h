@@ -84,7 +84,8 @@ PNPBS_API pnpbs_status pnpbs_geo_read(const char *path, const char *layer, const
  *  (pnpbs_domain_add_region): the elements in a polygon get the value that it has in a field.
  *  Local. Errors as of pnpbs_geo_read; PNPBS_ERROR_FILE for a polygon
  *  without a value, or with an integer of more than 32 bits; PNPBS_ERROR_DOMAIN with both features
- *  and the point where polygons overlap or have a gap below 1e-6 of the extent; PNPBS_ERROR_ARGUMENT on a sphere.
+ *  and the point where polygons overlap or have a gap below 1e-6 of the extent;
+ *  PNPBS_ERROR_ARGUMENT on a sphere.
  *  @param[in] region_field  the attribute that becomes the tag of elements: integers unchanged, 0
  *                           for no region; if other values occur, all as 1, 2 and so on in sorted
  *                           order, with their names for dimension 2 (pnpbs_domain_get_tag_name);

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/union_find.hpp"
 #include "surfaces/surface_edges.hpp"
