@@ -2,9 +2,6 @@
 #include "surfaces/solids.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <tuple>

@@ -186,10 +186,9 @@ void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& wa
   std::sort(doubles.begin(), doubles.end());
   for (const auto& [later, first] : doubles)
     if (triangles[later].source != triangles[first].source)
-      throw Error(ErrorKind::domain,
-                  surface.triangle_name(first) + " and " + surface.triangle_name(later) +
-                      " lie on each other at " +
-                      point_text(surface.vertices[triangles[first].vertices[0]]));
+      throw BrokenSurface(surface.triangle_name(first) + " and " + surface.triangle_name(later) +
+                          " lie on each other at " +
+                          point_text(surface.vertices[triangles[first].vertices[0]]));
   const auto& [later, first] = doubles.front();
   warnings.emplace_back(
       WarningCode::triangles_left_out,

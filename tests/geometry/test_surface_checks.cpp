@@ -216,8 +216,8 @@ START_TEST(triangles_given_twice_count_once) {
 
   VolumeDomain two;
   two.add_box({0, 0, 0}, {1, 1, 1}, 1);
-  two.add_box({1, 0, 0}, {2, 1, 1}, 1);
-  expect_domain_error(two, {"triangle 3 of box 0 and triangle 0 of box 1 lie on each other at (1"});
+  two.add_box({0, 0, 0}, {1, 1, 1}, 1);
+  expect_domain_error(two, {"triangle 0 of box 0 and triangle 0 of box 1 lie on each other at (0"});
 }
 END_TEST
 
@@ -372,6 +372,12 @@ START_TEST(bodies_that_touch_outside_are_joined) {
   ck_assert_double_eq_tol(domain.volume(), 1.25, 1e-15);
   ck_assert_double_eq_tol(domain.area(), 6 + 2, 1e-14);
   ck_assert_ptr_nonnull(domain.regions());
+  VolumeDomain equal_faces;
+  equal_faces.add_box({0, 0, 0}, {1, 1, 1}, 1);
+  equal_faces.add_box({1, 0, 0}, {2, 1, 1}, 1);
+  equal_faces.check();
+  ck_assert_double_eq_tol(equal_faces.volume(), 2, 1e-15);
+  ck_assert_double_eq_tol(equal_faces.area(), 10, 1e-14);
 }
 END_TEST
 
