@@ -8,11 +8,13 @@
 #             list is tests/selections.cmake
 #   full      the release build with all tests except those of nightly. After quick in one call,
 #             only the tests that quick leaves out
-#   nightly   searches for differences between ranks with the date as seed, soak tests, and studies;
-#             the build of full
+#   nightly   searches for differences between ranks with the date as seed, soak tests, studies, and
+#             long tests of what shorter ones cover too; the build of full
 #   sanitize  with Clang and address and undefined-behaviour sanitizers, including mutated input, on
 #             the oldest supported Kokkos; without Fortran, whose compiler cannot link with Clang's
-#             sanitizers. Tests of the interface, of ranks and of the command
+#             sanitizers. The shorter tests of the interface, of ranks and of the command; the list is
+#             in tests/selections.cmake
+#   sanitize-all  the same build with all of these tests that make sense there
 #   no-mpi    without MPI, with the static library, on a shared Kokkos of a host program. Tests of
 #             what can differ: linkage, installed copies, some tests of each language
 #   inner     as sanitize, for the internal tests (tests/geometry, tests/core)
@@ -33,11 +35,11 @@ for configuration in "${wanted[@]}"; do
   case $configuration in
     quick) ;;
     full | nightly) setup+=(--all) ;;
-    sanitize | inner | files) setup+=(--all --kokkos 4.5.1-clang) ;;
+    sanitize | sanitize-all | inner | files) setup+=(--all --kokkos 4.5.1-clang) ;;
     no-mpi) setup+=(--kokkos 4.7.0-shared) ;;
     *)
       echo "test.sh: unknown configuration '$configuration'; there are quick, full, nightly, sanitize," \
-        "no-mpi, inner and files" >&2
+        "sanitize-all, no-mpi, inner and files" >&2
       exit 2
       ;;
   esac
@@ -119,8 +121,13 @@ for configuration in "${wanted[@]}"; do
       ;;
     sanitize)
       configure sanitize --preset sanitize -DPNPBS_TEST_FOLDERS="api;parallel;linkage;tool"
+      cmake --build build/sanitize --target pnpbs-sanitize-tests
+      run_tests sanitize sanitize -L '^sanitize$'
+      ;;
+    sanitize-all)
+      configure sanitize --preset sanitize -DPNPBS_TEST_FOLDERS="api;parallel;linkage;tool"
       cmake --build build/sanitize
-      run_tests sanitize sanitize -LE '^(many-runs|figures|nightly)$'
+      run_tests sanitize-all sanitize -LE '^(many-runs|figures|nightly)$'
       ;;
     inner)
       configure inner --preset sanitize -DPNPBS_TEST_FOLDERS="geometry;core"

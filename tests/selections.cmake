@@ -46,10 +46,31 @@ set(PNPBS_TESTS_OF_quick
 
 # The tests of what a build without MPI, on a shared Kokkos and with the static library, can change.
 set(PNPBS_TESTS_OF_no-mpi linkage_.* install_.* api_arguments api_contexts api_files api_first_contexts
-                          api_handles api_small api_threads api_volumes geo_reading fortran_library
-                          fortran_placement fortran_stop julia_installed julia_package python_package python_wheel)
+                          api_handles api_small api_threads geo_reading fortran_library
+                          fortran_placement fortran_stop julia_installed python_package python_wheel)
 
-# Long searches with a new seed each day, and studies of many runs.
-set(PNPBS_TESTS_OF_nightly parallel_hunt parallel_hunt_five parallel_hunt_wide parallel_soak_8 bench_bodies
-                           bench_compare bench_compare_bodies bench_random_bodies bench_sliding
-                           bench_space_scaling bench_spheres bench_studies)
+# The tests that run sanitized in continuous integration: every folder of the library, one and several
+# ranks, the command, and malformed input, in the shortest runs. The configuration sanitize-all runs
+# all.
+set(PNPBS_TESTS_OF_sanitize
+    api_adapting api_arguments api_boundary api_callbacks api_checkpoints api_contexts api_ending api_files
+    api_first_contexts api_groups api_handles api_level_sets api_levels api_messages api_neighbours api_regions
+    api_small api_sphere api_sphere_again api_surfaces api_tables
+    parallel_adapt parallel_assembly parallel_background parallel_distributed_mesh parallel_exchange
+    parallel_faults_3 parallel_fields parallel_files parallel_ghost_stars parallel_growth_limit
+    parallel_kept_stars parallel_long_lists parallel_memory_3 parallel_mesh_files parallel_partition_numbers
+    parallel_soak_3 parallel_sparse_exchange parallel_sphere_fields parallel_star_questions
+    parallel_surface_fill parallel_transfer parallel_tree_part parallel_unknown_uses_found
+    parallel_volume_conformity_3 parallel_volume_halo parallel_volume_nodes parallel_volume_partition
+    parallel_voronoi_cells parallel_wide_sums
+    linkage_.* mutate_.* volume_files
+    command_bodies_cut_open command_elements_on_boundary command_fragment command_grids command_groups
+    command_hdf5_files command_input command_mpas command_node_fields command_node_volumes
+    command_polygon_regions command_ranks_failing command_rasters command_regions command_simplify
+    command_spacing_files command_stopping command_terminal)
+
+# Long searches with a new seed each day, studies of many runs, and long tests of what shorter ones
+# cover too: recorded node sets on all numbers of ranks are those of parallel_node_hashes.
+set(PNPBS_TESTS_OF_nightly parallel_hunt.* parallel_invariance parallel_volume_invariance parallel_soak_8 api_closing
+                           bench_bodies bench_compare bench_compare_bodies bench_loose_pieces
+                           bench_random_bodies bench_sliding bench_space_scaling bench_spheres bench_studies)

@@ -69,6 +69,8 @@ class Package:
             for name, source in definitions(text):
                 self.sources[name] = self.sources.get(name, "") + source
         self.documented = {name: one for one in self.docstrings for name in one.names}
+        self.reached_by = {name: self.reached(name) - IN_PASSING.get(name, set())
+                           for name in self.documented}
 
     def reached(self, name, seen=None):
         """Returns the C functions that a function calls, directly or through functions without a
@@ -87,5 +89,4 @@ class Package:
         if c_name in OTHERWISE:
             return [self.documented[OTHERWISE[c_name]]]
         return [one for one in self.docstrings
-                if any(c_name in self.reached(name) - IN_PASSING.get(name, set())
-                       for name in one.names)]
+                if any(c_name in self.reached_by[name] for name in one.names)]

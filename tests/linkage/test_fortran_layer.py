@@ -25,6 +25,8 @@ INCLUDED = (ROOT / "include" / MODULE.included).read_text() if MODULE.included e
 IS_WHOLE = MODULE.name == "pnpbs_c"  # whether the module has callbacks and constants
 DECLARATION = re.compile(r"^PNPBS_API [^;]*?(\w+)\(([^;]*)\);", re.S | re.M)
 CALLBACK = re.compile(r"^typedef int32_t \(\*(\w+)\)\(([^;]*)\);", re.S | re.M)
+# The generator takes a while for a whole header, so every n-th function and constant is changed.
+EVERY = 7
 
 
 def made(header):
@@ -83,21 +85,21 @@ class Changes(Follows):
         added = itertools.cycle((("int32_t more", "integer(c_int32_t), value"),
                                  ("const double *more", "real(c_double), intent(in)"),
                                  ("void *more", "type(c_ptr), value")))
-        for declaration, (argument, fortran) in zip(found, added):
+        for declaration, (argument, fortran) in zip(found[::EVERY], added):
             arguments = with_one_more(declaration, argument)
             layer = self.assert_follows(with_arguments(HEADER, declaration, arguments),
                                         f"{declaration[1]}: {argument}")
             self.assertRegex(body(layer, declaration[1]), re.escape(fortran) + r" ::.*\bmore\b")
 
     def test_argument_removed(self):
-        for declaration in DECLARATION.finditer(HEADER):
+        for declaration in list(DECLARATION.finditer(HEADER))[::EVERY]:
             if declaration[2] != "void":
                 arguments = declaration[2].rpartition(",")[0] or "void"
                 self.assert_follows(with_arguments(HEADER, declaration, arguments),
                                     declaration[1])
 
     def test_function_removed(self):
-        for declaration in DECLARATION.finditer(HEADER):
+        for declaration in list(DECLARATION.finditer(HEADER))[::EVERY]:
             header = HEADER[:declaration.start()] + HEADER[declaration.end():]
             if f"  as {declaration[1]}\n" in HEADER:  # others refer to its parameters
                 with self.assertRaisesRegex(ValueError, f"refer to {declaration[1]}"):
@@ -125,7 +127,7 @@ class ChangesOfTheWhole(Follows):
     """Tests changes of callbacks and constants."""
 
     def test_constant_changed(self):
-        for name, value in c_header.constants(HEADER).items():
+        for name, value in list(c_header.constants(HEADER).items())[::EVERY]:
             header = re.sub(rf"(\b{name}\b,? ){value}\b", rf"\g<1>{value + 50}", HEADER)
             self.assertIn(f"parameter :: {name} = {value + 50}",
                           self.assert_follows(header, name))
