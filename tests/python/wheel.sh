@@ -10,10 +10,14 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 unset PNPBS_LIBRARY PYTHONPATH
 
+# The library of shapes is put into the wheel where there is one.
+geo=OFF
+[ ! -e "$(dirname "$library")/libpnpbs_geo.so.0" ] || geo=ON
+
 # The build tools, NumPy and mpi4py are those of the environment of the tests.
 cp -r "$bindings" "$work/bindings"
 "$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
-  -C cmake.define.PNPBS_LIBRARY="$library" -w "$work" "$work/bindings"
+  -C cmake.define.PNPBS_LIBRARY="$library" -C cmake.define.PNPBS_ENABLE_GEO=$geo -w "$work" "$work/bindings"
 # The build must not leave files in the source folder.
 diff -r -x __pycache__ "$bindings" "$work/bindings"
 # install <environment> <wheel>
@@ -40,6 +44,15 @@ import pathlib, pnpbs
 assert pathlib.Path(pnpbs.library_path()).is_relative_to('$site/pnpbs/lib'), pnpbs.library_path()
 assert pnpbs.Context.__doc__ and pathlib.Path(pnpbs.__file__).with_name('py.typed').exists()
 print(pnpbs.library_version())"
+
+if [ $geo = ON ]; then
+  echo '{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}' > triangle.geojson
+  "$fresh" -c "
+import pnpbs
+with pnpbs.Context() as context, pnpbs.Shapes('triangle.geojson', projection='none') as shapes:
+    area = shapes.add_to(pnpbs.Domain(context)).measure()
+assert area == 0.5, area"
+fi
 
 for example in smallest laplace_ring; do
   for ranks in 0 1 2 4; do
