@@ -124,6 +124,7 @@ module pnpbs
     procedure :: parse_poly => domain_parse_poly
     procedure :: set_corner_angle => domain_set_corner_angle
     procedure :: set_snap => domain_set_snap
+    procedure :: tag_outline => domain_tag_outline
     procedure :: simplify => domain_simplify
     procedure :: simplify_by_file => domain_simplify_by_file
     procedure :: add_offset => domain_add_offset
@@ -1261,6 +1262,32 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call conclude('domain%set_snap', c_domain_set_snap(self%c, length), stat, errmsg)
+  end subroutine
+
+  !> Gives a tag to the parts of the boundary around a domain in the plane or on a sphere where a
+  !> function is negative, such as the open boundary of a sea where it is deep. Boundaries around
+  !> holes, such as islands, keep their tags. A segment has the tag if the function is negative at
+  !> its middle, an arc or a general curve likewise as a whole. Nodes are placed where the tag
+  !> changes. Checks the domain first. Local; must be called identically on all ranks.
+  !>   level_set  the function, called only during this procedure, with dim = 2 in the plane and 3 on
+  !>              a sphere
+  !>   tag        nonzero
+  !>   user       optional: passed to the callback
+  !>   count      optional: number of segments and curves that have the tag now because of it
+  subroutine domain_tag_outline(self, level_set, tag, user, count, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    procedure(pnpbs_level_set_fn) :: level_set
+    integer(c_int32_t), intent(in) :: tag
+    type(c_ptr), intent(in), optional :: user
+    integer(c_int64_t), intent(out), optional :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: tagged
+    tagged = 0
+    call conclude('domain%tag_outline', &
+                  c_domain_tag_outline(self%c, c_funloc(level_set), pointer_or_null(user), tag, tagged), &
+                  stat, errmsg)
+    if (present(count)) count = tagged
   end subroutine
 
   !> Removes features smaller than d, such as those of coastlines, from the graphs and polylines of

@@ -146,10 +146,10 @@ module pnpbs_c
       integer(c_int32_t) :: pnpbs_curve_fn
     end function
 
-    !> Level set callback: fills values(n) with f at coordinates(dim,n), dim = 3; the body is where
-    !> f < 0. Must be a pure function of the point, the same on all ranks, continuous and finite in
-    !> the whole box; it need not be a distance. Return 0, or nonzero to fail the call with
-    !> PNPBS_ERROR_CALLBACK.
+    !> Level set callback: fills values(n) with f at coordinates(dim,n), dim = 3 in space; the body
+    !> is where f < 0. Must be a pure function of the point, the same on all ranks, continuous and
+    !> finite in the whole box; it need not be a distance. Return 0, or nonzero to fail the call
+    !> with PNPBS_ERROR_CALLBACK.
     function pnpbs_level_set_fn(n, dim, coordinates, values, user) bind(C)
       import
       implicit none
@@ -671,6 +671,18 @@ module pnpbs_c
       integer(c_int64_t), value :: length
       character(kind=c_char), intent(in) :: name(*)
       integer(c_int) :: c_domain_parse_poly
+    end function
+
+    function c_domain_tag_outline(domain, where, user, tag, count) bind(C, &
+      name="pnpbs_domain_tag_outline")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      type(c_funptr), value :: where ! pnpbs_level_set_fn
+      type(c_ptr), value :: user ! void *
+      integer(c_int32_t), value :: tag
+      integer(c_int64_t), intent(out) :: count
+      integer(c_int) :: c_domain_tag_outline
     end function
 
     function c_domain_set_corner_angle(domain, corner_angle) bind(C, &

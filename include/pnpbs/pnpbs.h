@@ -473,9 +473,9 @@ PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *
 PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
                                                  const double *end, double radius, int32_t tag);
 
-/** Level set callback: fills values[n] with f at coordinates[n][dim], dim = 3; the body is where f
- *  < 0. Must be a pure function of the point, the same on all ranks, continuous and finite in the
- *  whole box; it need not be a distance. Return 0, or nonzero to fail the call with
+/** Level set callback: fills values[n] with f at coordinates[n][dim], dim = 3 in space; the body is
+ *  where f < 0. Must be a pure function of the point, the same on all ranks, continuous and finite
+ *  in the whole box; it need not be a distance. Return 0, or nonzero to fail the call with
  *  PNPBS_ERROR_CALLBACK. */
 typedef int32_t (*pnpbs_level_set_fn)(int64_t n, int32_t dim, const double *coordinates,
                                       double *values, void *user);
@@ -565,6 +565,22 @@ PNPBS_API pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *p
  *  @param[in] name  the name of the text in messages */
 PNPBS_API pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text,
                                                int64_t length, const char *name);
+
+/** Gives a tag to the parts of the outline of a domain in the plane or on a sphere where f < 0,
+ * such as the open boundary of a sea where its depth exceeds a threshold. The outline is the
+ * boundary around the domain; boundaries around holes, such as islands, keep their tags. A segment
+ * between two vertices has the tag if f < 0 at its middle, an arc or a general curve likewise as a
+ * whole. Nodes are placed where the tag changes. On a sphere the outline is the boundary that
+ * separates the domain from the point outside it. Checks the domain first. If the call fails, the
+ * domain is unchanged. Local; must be called identically on all ranks. Errors: PNPBS_ERROR_DOMAIN
+ * as in pnpbs_domain_check, PNPBS_ERROR_CALLBACK, PNPBS_ERROR_ARGUMENT in space.
+ *  @param[in] level_set  f, with dim = 2 in the plane and 3 on a sphere; called only during this
+ *                        function; it may query the shape of the domain as it was before, if that
+ *                        has been queried before
+ *  @param[in] tag        nonzero
+ *  @param[out] count     segments and curves that have the tag now because of f; may be NULL */
+PNPBS_API pnpbs_status pnpbs_domain_tag_outline(pnpbs_domain domain, pnpbs_level_set_fn level_set,
+                                                void *user, int32_t tag, int64_t *count);
 
 /** Spacing callback: fills d[n] for coordinates[n][dim]. n may be 0. Must be a pure function of the
  *  point; it may be evaluated anywhere in the domain's bounding box that lies inside the domain or

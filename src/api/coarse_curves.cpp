@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// C interface: simplification of curves that are given with finer points than nodes should follow.
+// C interface: changes of the curves of a domain in the plane or on a sphere that were given
+// before: corners, loose points, simplification, tags of the outline.
+#include <vector>
+
 #include "api/domain_calls.hpp"
 #include "api/spacing_callback.hpp"
 #include "spacing/files/field_file.hpp"
@@ -60,5 +63,30 @@ pnpbs_status pnpbs_domain_simplify_by_file(pnpbs_domain domain, const char* path
       spacing = spacing_from_field(std::move(values), plane.bounds());
       simplify_by(plane, *spacing, rule, vertices, curves);
     }
+  });
+}
+
+pnpbs_status pnpbs_domain_tag_outline(pnpbs_domain domain, pnpbs_level_set_fn level_set, void* user,
+                                      int32_t tag, int64_t* count) {
+  return change_domain(domain, [&](DomainObject& object) {
+    if (!level_set) throw Error(ErrorKind::argument, "argument level_set is NULL");
+    const Embedding<2> embedding = sphere_of(object);
+    PlaneDomain& plane = embedding.is_sphere() ? *object.plane : plane_of(object);
+    const auto function = [&](std::int64_t n, const Point<2>* x, double* values) {
+      std::vector<double> coordinates;
+      for (std::int64_t i = 0; i < n; ++i) {
+        const Point<3> point = embedding.in_space(x[i]);
+        coordinates.insert(coordinates.end(), point.begin(),
+                           point.begin() + embedding.coordinates());
+      }
+      const HostArithmetic arithmetic;
+      if (const int32_t answer =
+              level_set(n, embedding.coordinates(), coordinates.data(), values, user);
+          answer != 0)
+        throw Error(ErrorKind::callback,
+                    "the callback returned " + std::to_string(answer) + "; it must return 0");
+    };
+    const std::int64_t tagged = plane.tag_outline(function, tag);
+    if (count) *count = tagged;
   });
 }

@@ -175,6 +175,8 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
     refuse("--snap is for domains in the plane, and this one is a body");
   if (arguments.sphere && arguments.snap)
     refuse("--snap is for domains in the plane, and this one is on a sphere");
+  if (dimension == 3 && !arguments.sphere && !arguments.open_boundary.empty())
+    refuse("--open-boundary is for domains in the plane and on a sphere, and this one is a body");
   if (dimension == 3 && arguments.simplify)
     refuse("--simplify is for domains in the plane, and this one is a body");
   if (arguments.surfaces_only && !arguments.cut.empty())

@@ -303,6 +303,15 @@ void add_curves(CLI::App& app, Arguments& arguments) {
       ->group(group);
 }
 
+void add_open_boundary(CLI::App& app, Arguments& arguments) {
+  app.add_option("--open-boundary", arguments.open_boundary,
+                 "in the plane or on a sphere: where this formula is greater than 0,\n"
+                 "the boundary around the domain is open: it has a tag named open.\n"
+                 "As for --spacing, with grids: 'depth > 50'")
+      ->type_name("EXPR")
+      ->group("What to fill");
+}
+
 // Adds the options of files that GDAL reads.
 void add_geo(CLI::App& app, Arguments& arguments) {
   const std::string group = "What to fill";
@@ -586,6 +595,7 @@ std::string parse_arguments(int argc, char** argv, Arguments& arguments) {
   add_input(app, arguments);
   add_spacing_bounds(app, arguments);
   add_curves(app, arguments);
+  add_open_boundary(app, arguments);
   add_geo(app, arguments);
   add_repair(app, arguments);
   add_fragment(app, arguments);

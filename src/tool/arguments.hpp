@@ -57,6 +57,7 @@ struct Arguments {
   // Extent below which curves are left out, over d.
   double smallest = 0;
   std::string layer, projection, unit, tag_field, region_field;  // for files that GDAL reads
+  std::string open_boundary;  // formula, greater than 0 where the boundary is open
   std::optional<SphereRequest> sphere;
   std::vector<std::string> inner;                           // groups of triangles, by name or tag
   std::vector<std::pair<std::int32_t, std::string>> names;  // tags and their names

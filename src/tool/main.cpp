@@ -24,6 +24,7 @@
 #include "tool/library.hpp"
 #include "tool/named_grids.hpp"
 #include "tool/node_fields.hpp"
+#include "tool/open_boundary.hpp"
 #include "tool/outputs.hpp"
 #include "tool/particles.hpp"
 #include "tool/progress.hpp"
@@ -46,6 +47,7 @@ struct Requests {
   std::optional<Spacing> spacing;
   std::optional<Density> density;
   std::optional<NodeFields> fields;
+  std::optional<OpenBoundary> open_boundary;
   Requests(const Arguments& arguments, const Ranks& ranks) {
     ranks.collective_try([&] {
       if (!arguments.dry_run) outputs.emplace(arguments, ranks);
@@ -55,6 +57,8 @@ struct Requests {
       spacing.emplace(arguments, source->dimension(), *grids);
       if (arguments.density) density.emplace(*arguments.density, source->dimension());
       fields.emplace(arguments, source->dimension(), *grids);
+      if (!arguments.open_boundary.empty())
+        open_boundary.emplace(arguments.open_boundary, source->dimension(), *grids);
       require_use_of_grids();
     });
   }
@@ -66,6 +70,7 @@ struct Requests {
   void require_use_of_grids() const {
     std::vector<std::string> formulas = fields->formulas();
     formulas.insert(formulas.begin(), spacing->formula());
+    if (open_boundary) formulas.push_back(open_boundary->formula());
     grids->require_use_in(formulas);
   }
 };
@@ -270,6 +275,11 @@ void read_domain(Work& work) {
     const std::string unit = unit_of_length(arguments, source.geo());
     work.requests.grids->read(work.domain, work.context, source.geo(), unit);
     spacing.use_read_grids(*work.requests.grids);
+    if (work.requests.open_boundary) {
+      const std::int64_t open = work.requests.open_boundary->tag(work.domain, work.context);
+      if (work.talks())
+        std::cerr << "pnpbs: note: segments of the boundary that are open: " << open << "\n";
+    }
     if (arguments.simplify)
       spacing.simplify(work.domain, work.context, *arguments.simplify, arguments.smallest);
     work.look = look_of(arguments, source.dimension(), unit, work.domain, work.context);

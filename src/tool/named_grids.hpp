@@ -27,7 +27,7 @@ class NamedGrids {
   // Returns the fields that the formula mentions. This object must outlive them.
   std::vector<Expression::Field> fields_in(const std::string& formula) const;
   // Throws BadInput if no formula uses a grid. The first formula is that of --spacing, the others
-  // those of --field.
+  // those of --field and --open-boundary.
   void require_use_in(const std::vector<std::string>& formulas) const;
 
   // Reads the part of each grid that covers the domain, in the domain's projection. Must be called

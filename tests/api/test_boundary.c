@@ -637,6 +637,139 @@ END_TEST
 
 /* ---------------------------------------------------------------- finer than d ---------- */
 
+/* ---------------------------------------------------------------- tags of the outline --- */
+
+/* Is negative below the line y = *(double*)user. */
+static int32_t below_line(int64_t n, int32_t dim, const double* x, double* values, void* user) {
+  int64_t i;
+  ck_assert_int_eq(dim, 2);
+  for (i = 0; i < n; ++i) values[i] = x[2 * i + 1] - *(const double*)user;
+  return 0;
+}
+
+/* Is negative south of the equator. */
+static int32_t in_the_south(int64_t n, int32_t dim, const double* x, double* values, void* user) {
+  int64_t i;
+  (void)user;
+  ck_assert_int_eq(dim, 3);
+  for (i = 0; i < n; ++i) values[i] = x[3 * i + 2];
+  return 0;
+}
+
+static int32_t failing(int64_t n, int32_t dim, const double* x, double* values, void* user) {
+  (void)n, (void)dim, (void)x, (void)values, (void)user;
+  return 4;
+}
+
+/* Returns the length of the segments with this tag. */
+static double length_tagged(pnpbs_domain domain, int32_t tag) {
+  int64_t n = 0, k;
+  double *ends, sum = 0;
+  int32_t* tags;
+  MUST(pnpbs_domain_get_segments(domain, 0, &n, NULL, NULL));
+  ends = malloc((size_t)n * 4 * sizeof *ends);
+  tags = malloc((size_t)n * sizeof *tags);
+  MUST(pnpbs_domain_get_segments(domain, n, &n, ends, tags));
+  for (k = 0; k < n; ++k)
+    if (tags[k] == tag)
+      sum += hypot(ends[4 * k + 2] - ends[4 * k], ends[4 * k + 3] - ends[4 * k + 1]);
+  free(ends);
+  free(tags);
+  return sum;
+}
+
+/* A square with an island, a breakwater, and a notch at the left side. Everything below
+ * the line is selected, but only the outline gets the tag, in a curve as in a graph. */
+START_TEST(outline_below_a_line) {
+  enum { kVertices = 13, kSegments = 12 };
+  const double xy[2 * kVertices] = {0,   0,   1,   0,   1,   0.5, 1,   1,   0,
+                                    1,   0.2, 0.5, 0,   0.2, 0.4, 0.1, 0.6, 0.1,
+                                    0.6, 0.3, 0.4, 0.3, 0.8, 0.1, 0.8, 0.2};
+  const int64_t ends[2 * kSegments] = {0, 1, 1, 2, 2, 3, 3, 4,  4,  5, 5,  6,
+                                       6, 0, 7, 8, 8, 9, 9, 10, 10, 7, 11, 12};
+  const double hole[2] = {0.5, 0.15};
+  const int32_t ones[7] = {1, 1, 1, 1, 1, 1, 1};
+  double line = 0.4, length;
+  int64_t count;
+  int kind;
+  for (kind = 0; kind < 2; ++kind) {
+    job it = job_begin();
+    result nodes;
+    count = -1;
+    if (kind == 0) {
+      MUST(pnpbs_domain_add_pslg(it.domain, kVertices, xy, NULL, kSegments, ends, NULL, 0, NULL));
+      MUST(pnpbs_domain_add_hole(it.domain, hole));
+    } else {
+      MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 7, xy, ones, 0));
+      MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_BOUNDARY, 1, 4, xy + 14, NULL, 0));
+      MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, xy + 22, NULL, 0));
+    }
+    MUST_FAIL(PNPBS_ERROR_CALLBACK, pnpbs_domain_tag_outline(it.domain, failing, NULL, 5, &count),
+              "4", "");
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_tag_outline(it.domain, NULL, NULL, 5, &count),
+              "level_set", "");
+    MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+              pnpbs_domain_tag_outline(it.domain, below_line, &line, 0, &count), "tag", "");
+    ck_assert_int_eq(count, -1);
+    MUST(pnpbs_domain_tag_outline(it.domain, below_line, &line, 5, &count));
+    /* the bottom, half of the right side, and two segments of the notch */
+    ck_assert_int_eq(count, 4);
+    length = 1 + 0.5 + hypot(0.2, 0.3) + 0.2;
+    ck_assert_double_eq_tol(length_tagged(it.domain, 5), length, 1e-14);
+    run(&it, 0.1);
+    nodes = result_of(it.placement);
+    check_result(&nodes, 0);
+    check_corner(&nodes, 1, 0.5, 5);
+    ck_assert_int_gt(edges_tagged(&nodes, 5, &length), 15);
+    ck_assert_double_eq_tol(length, 1.7 + hypot(0.2, 0.3), 1e-12);
+    result_free(&nodes);
+    job_end(&it);
+  }
+}
+END_TEST
+
+/* Arcs get the tag as wholes. */
+START_TEST(outline_of_arcs) {
+  const double centre[2] = {0, 0};
+  double line = 0, measure = 0;
+  int64_t count = -1;
+  job it = job_begin();
+  MUST(pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, centre, 1, 0, PI, 1));
+  MUST(pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, centre, 1, PI, 2 * PI, 2));
+  MUST(pnpbs_domain_add_arc(it.domain, PNPBS_BOUNDARY, centre, 0.5, 0, 2 * PI, 3));
+  MUST(pnpbs_domain_tag_outline(it.domain, below_line, &line, 7, &count));
+  ck_assert_int_eq(count, 1);
+  ck_assert_double_eq_tol(length_tagged(it.domain, 7), PI, 1e-3);
+  ck_assert_double_eq_tol(length_tagged(it.domain, 1), PI, 1e-3);
+  ck_assert_double_eq_tol(length_tagged(it.domain, 3), PI, 1e-3);
+  ck_assert(length_tagged(it.domain, 2) == 0);
+  MUST(pnpbs_domain_measure(it.domain, &measure));
+  job_end(&it);
+}
+END_TEST
+
+/* A sea from 30 degrees north to 30 degrees south. */
+START_TEST(outline_on_a_sphere) {
+  const double degrees[8] = {0, -30, 40, -30, 40, 30, 0, 30}, outside[3] = {0, 0, -1};
+  double xyz[12];
+  int64_t count = -1;
+  job it = job_begin();
+  pnpbs_domain sea = NULL, box = NULL;
+  MUST(pnpbs_domain_create_sphere(it.context, 2, outside, &sea));
+  MUST(pnpbs_sphere_points(2, 4, degrees, xyz));
+  MUST(pnpbs_domain_add_polyline(sea, PNPBS_BOUNDARY, 1, 4, xyz, NULL, 0));
+  MUST(pnpbs_domain_tag_outline(sea, in_the_south, NULL, 9, &count));
+  ck_assert_int_gt(count, 0);
+  MUST(pnpbs_domain_tag_outline(sea, in_the_south, NULL, 1, &count));
+  MUST(pnpbs_domain_create(it.context, 3, &box));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_tag_outline(box, in_the_south, NULL, 9, &count),
+            "three dimensions", "");
+  MUST(pnpbs_domain_destroy(&box));
+  MUST(pnpbs_domain_destroy(&sea));
+  job_end(&it);
+}
+END_TEST
+
 static job lake_job(void) {
   job it = job_begin();
   MUST(pnpbs_domain_read_poly(it.domain, PNPBS_SOURCE_DIR "/examples/data/lake_victoria.poly"));
@@ -833,6 +966,9 @@ TEST_SUITE(test_boundary) {
   tcase_add_test(cases, a_graph_by_text);
   tcase_add_test(cases, segments_show_the_domain);
   tcase_add_test(cases, a_lake);
+  tcase_add_test(cases, outline_below_a_line);
+  tcase_add_test(cases, outline_of_arcs);
+  tcase_add_test(cases, outline_on_a_sphere);
   tcase_add_test(cases, a_shore_finer_than_d);
   tcase_add_test(cases, loose_points);
   tcase_add_test(cases, a_graph_that_is_a_circle);

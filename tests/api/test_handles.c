@@ -78,6 +78,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_box, (handle, xyz, xyz + 3, 1))                                        \
   X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
+  X(domain_tag_outline, (handle, volume_ring_at, NULL, 5, out.integers))              \
   X(domain_set_corner_angle, (handle, 30.0))                                          \
   X(domain_set_snap, (handle, 1e-3))                                                  \
   X(domain_simplify, (handle, cone_spacing, &a_cone, 0.25, 2.0, NULL, NULL))          \

@@ -197,6 +197,7 @@ contains
   subroutine about_graphs_finer_than_d
     type(pnpbs_domain) :: domain
     real(c_double) :: xy(2, 44)
+    real(c_double), target :: radius
     type(cone), target :: even
     integer(c_int64_t) :: ends(2, 44), vertices, curves
     integer :: i
@@ -219,6 +220,11 @@ contains
     call expect(abs(area(domain) - 0.99d0) < 1d-14, 'with its hole')
     call domain%set_corner_angle(200d0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'corner_angle') > 0, 'an angle of 200')
+    radius = 0.5d0
+    call domain%tag_outline(ball_level_set, 5, c_loc(radius), vertices)
+    call expect(vertices == 10, 'segments within half a side of the corner')
+    call domain%tag_outline(ball_level_set, 0, c_loc(radius), stat=stat, errmsg=errmsg)
+    call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'tag') > 0, 'tag 0')
     call domain%set_snap(1d-3)
     call domain%set_snap(-1d0, stat=stat, errmsg=errmsg)
     call expect(stat == PNPBS_ERROR_ARGUMENT .and. index(errmsg, 'length') > 0, 'a negative length')

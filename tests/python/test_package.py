@@ -374,6 +374,20 @@ class Domains(Case):
         self.assertEqual(pnpbs.Domain(self.context).parse_poly(text).measure(), lake.measure())
         self.assert_status(Status.ERROR_FILE, lake.read_poly, "nowhere.poly")
 
+    def test_outline(self):
+        domain = pnpbs.Domain(self.context).add_polyline(SQUARE)
+        domain.add_polyline([(0.4, 0.4), (0.6, 0.4), (0.5, 0.6)])
+        self.assertEqual(domain.tag_outline(lambda x: x[:, 1] > 0.9, 5), 1)
+        self.assertEqual(domain.tag_outline(lambda x: x[:, 1] > 2, 6), 0)
+        placement = pnpbs.Placement(domain).set_spacing(0.1)
+        placement.run()
+        nodes = placement.nodes()
+        self.assertTrue((nodes.points[nodes.tags == 5][:, 1] == 1).all())
+        self.assertGreater((nodes.tags == 5).sum(), 8)
+        with self.assertRaises(ZeroDivisionError):
+            domain.tag_outline(lambda x: 1 / 0, 5)
+        self.assert_status(Status.ERROR_ARGUMENT, domain.tag_outline, lambda x: x[:, 1] > 0, 0)
+
     def test_graphs_finer_than_d(self):
         turn = np.arange(400) * 2 * np.pi / 400
         small = [(0.1, 0), (0, 0.1), (-0.1, 0), (0, -0.1)]

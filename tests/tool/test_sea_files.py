@@ -12,7 +12,7 @@ import netCDF4
 import numpy as np
 
 from builds import exists_if
-from command import SQUARE, SQUARE_AREA, CommandTest
+from command import BAD_INPUT, SQUARE, SQUARE_AREA, CommandTest
 from readers import read_csv
 
 Gr3 = collections.namedtuple("Gr3", "nodes depths triangles open land")
@@ -198,6 +198,20 @@ class SeaFiles(CommandTest):
         self.assertAlmostEqual(area_of(gr3.nodes[sea + coast[1][1:-1]]), 1, places=12)
         self.assertAlmostEqual(area_of(gr3.nodes[island[1]]), -0.04, places=12)
         self.assertNotEqual(island[1][0], island[1][-1])
+
+    def test_open_where_a_formula_says(self):
+        gr3, two_dm = self.placed(SIDES, "--open-boundary", "x > 0.55")
+        (sea,) = gr3.open  # not the side of the island at x = 0.6
+        np.testing.assert_array_equal(gr3.nodes[sea][:, 0], 1)
+        self.assertEqual([kind for kind, _ in gr3.land], [0, 1])
+        self.assertEqual(sorted(tag for tag, _ in two_dm.strings), [1, 2, 4, 5])
+        gr3, two_dm = self.placed(SIDES, "--open-boundary", "dist(4) < 0.41", "--name", "2=open_sea")
+        self.assertEqual(sorted({tag for tag, _ in two_dm.strings}), [1, 2, 4])
+        self.assertGreater(len(gr3.open), 0)
+        process = self.start("--domain", "a.poly", "--spacing", "0.06", "-o", "b.gr3", "--open-boundary", "x > 2")
+        _, err = process.communicate()
+        self.assertEqual(process.returncode, BAD_INPUT)
+        self.assertIn("'x > 2' is greater than 0 nowhere on the boundary", err.decode())
 
     def test_an_island_with_an_open_side_is_none(self):
         gr3, _ = self.placed(SIDES, "--name", "4=open")

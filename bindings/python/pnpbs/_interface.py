@@ -96,6 +96,8 @@ pnpbs_status pnpbs_domain_add_fixed_nodes(pnpbs_domain domain, int64_t n,
 pnpbs_status pnpbs_domain_read_poly(pnpbs_domain domain, const char *path);
 pnpbs_status pnpbs_domain_parse_poly(pnpbs_domain domain, const char *text, int64_t length,
     const char *name);
+pnpbs_status pnpbs_domain_tag_outline(pnpbs_domain domain, pnpbs_level_set_fn level_set,
+    void *user, int32_t tag, int64_t *count);
 pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length);
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void *user,

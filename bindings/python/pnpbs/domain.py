@@ -425,6 +425,24 @@ class Domain(Handle):
                    tolerance, smallest, ctypes.byref(vertices), ctypes.byref(curves))
         return LeftOut(vertices.value, curves.value)
 
+    def tag_outline(self, where: ArrayFunction, tag: int) -> int:
+        """Gives a tag to those parts of the boundary around a domain in the plane or on a sphere
+        that a function selects, such as the open boundary of a sea where it is deep. Boundaries
+        around holes, such as islands, keep their tags. Segments are selected by their middles, arcs
+        and general curves as wholes. Nodes are placed where the tag changes. All ranks must make the
+        same call.
+
+        - `where`: a function `where(x)` that receives points of shape (n, 2), on a sphere (n, 3),
+          and returns n truth values. It is called only now.
+
+        Returns the number of segments and curves that it selects. Raises `Status.ERROR_DOMAIN` if
+        `check` does."""
+        count = ctypes.c_int64()
+        callback = level_set_callback(
+            lambda x: np.where(np.asarray(where(x), dtype=bool), -1.0, 1.0), self.context)
+        self._call("tag_outline", callback, None, tag, ctypes.byref(count))
+        return count.value
+
     def set_filled(self, filled: bool) -> Domain:
         """Sets whether a domain in space is the volume enclosed by its surfaces, which is the
         default. With False it is the surfaces alone: nodes lie on them, triangles join these nodes,

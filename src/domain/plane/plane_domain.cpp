@@ -15,6 +15,7 @@
 #include "domain/given_values.hpp"
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/domain_resolver.hpp"
+#include "domain/plane/outline_tags.hpp"
 #include "domain/plane/sampling.hpp"
 #include "domain/plane/simplify.hpp"
 #include "domain/plane/snapping.hpp"
@@ -277,6 +278,14 @@ LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const Sim
         left_out.vertices);
   checked_ = false;
   return left_out;
+}
+
+std::int64_t PlaneDomain::tag_outline(const PlaneFunction& where, std::int32_t tag) {
+  require_tag("tag", tag);
+  check();
+  const std::int64_t count = pnpbs::tag_outline(sources_, resolved_, where, tag);
+  if (count > 0) checked_ = false;
+  return count;
 }
 
 bool PlaneDomain::has_boundary_curve() const {

@@ -157,6 +157,12 @@ class PlaneDomain : public DomainBase<2> {
   // domain unchanged if it throws.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
 
+  // Checks the domain and gives a tag to the parts of its outline where a function is negative
+  // (plane/outline_tags.hpp). Returns their number. Leaves the domain unchanged if it throws.
+  std::int64_t tag_outline(
+      const std::function<void(std::int64_t n, const Point<2>* x, double* values)>& where,
+      std::int32_t tag);
+
   // Checks the domain and resolves corners, curves and sides. Does nothing if nothing changed since
   // the last call. Throws Error(ErrorKind::domain).
   void check();

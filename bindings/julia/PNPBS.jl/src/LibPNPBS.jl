@@ -301,6 +301,11 @@ pnpbs_domain_parse_poly(domain, text, length, name) =
     @ccall $(symbol(:pnpbs_domain_parse_poly))(
         domain::pnpbs_domain, text::Ptr{UInt8}, length::Int64, name::Cstring)::pnpbs_status
 
+pnpbs_domain_tag_outline(domain, level_set, user, tag, count) =
+    @ccall $(symbol(:pnpbs_domain_tag_outline))(
+        domain::pnpbs_domain, level_set::pnpbs_level_set_fn, user::Ptr{Cvoid}, tag::Int32,
+        count::Ptr{Int64})::pnpbs_status
+
 pnpbs_domain_set_corner_angle(domain, corner_angle) =
     @ccall $(symbol(:pnpbs_domain_set_corner_angle))(
         domain::pnpbs_domain, corner_angle::Cdouble)::pnpbs_status

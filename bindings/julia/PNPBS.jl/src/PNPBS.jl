@@ -41,7 +41,7 @@ export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_leve
 export add_offset!
 export sphere_domain, sphere_points, sphere_degrees, sphere_radius
 export set_filled!, set_repair!, set_resurfaced!, set_fragment!
-export set_corner_angle!, set_snap!, simplify!, simplify_by_file!
+export tag_outline!, set_corner_angle!, set_snap!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!

@@ -500,6 +500,33 @@ function set_snap!(domain::Domain, length::Real)
 end
 
 """
+    tag_outline!(selects, domain, tag; per_point = false) -> Int
+
+Gives a tag to those parts of the boundary around a domain in the plane or on a sphere that a
+function selects, such as the open boundary of a sea where it is deep. Boundaries around holes, such
+as islands, keep their tags. Segments are selected by their middles, arcs and general curves as
+wholes. Nodes are placed where the tag changes. `selects(x)` receives points as a `(2, n)` matrix,
+on a sphere `(3, n)`, and returns `n` truth values; with `per_point` it is called for each point.
+All ranks must make the same call. Returns the number of segments and curves that it selects.
+Throws `:error_domain` if [`check`](@ref) does.
+
+    tag_outline!(domain, 2) do x
+        x[2, :] .> 54.9
+    end
+"""
+function tag_outline!(selects, domain::Domain, tag::Integer; per_point::Bool = false)
+    select = for_batches(selects, "selecting", per_point)
+    callback = Callback(x -> ifelse.(select(x) .> 0, -1.0, 1.0), domain.context)
+    count = Ref{Int64}(0)
+    GC.@preserve callback begin
+        code = LibPNPBS.pnpbs_domain_tag_outline(live(domain), level_set_pointer[],
+                                                 user_pointer(callback), tag, count)
+    end
+    check(domain.context, code)
+    return count[]
+end
+
+"""
     simplify!(d, domain; tolerance = 0.25, smallest = 0, per_point = false) -> (vertices, curves)
 
 Removes features smaller than d, such as those of coastlines, from the graphs and polylines of a

@@ -90,6 +90,9 @@ end
             @test simplify_by_file!(graph(0), path; tolerance = 0.05, smallest = 2) == left_out
             @test fails(() -> simplify_by_file!(graph(0), path; field = "e"), :error_file, "e")
         end
+        @test tag_outline!(x -> x[2, :] .> 0, graph(0), 5) > 10
+        @test tag_outline!((x, y) -> y > 9, graph(0), 5; per_point = true) == 0
+        @test fails(() -> tag_outline!(x -> x[2, :] .> 0, graph(0), 0), :error_argument, "tag")
         @test_throws DomainError simplify!(x -> throw(DomainError(1)), domain)
         @test fails(() -> simplify!(0.2, domain; tolerance = -1), :error_argument, "tolerance")
         @test fails(() -> set_corner_angle!(domain, 200), :error_argument, "corner_angle")
