@@ -13,7 +13,7 @@ set(PNPBS_TESTS_OF_quick
     settings sizing_field slivers spacing speeds sphere sphere_cells surface_moves sweep tetrahedron_quality trees
     visibility volume_domain volume_fill volume_lattice volume_population volume_star volume_stars
     # geometry and its files
-    arrangement boundary boundary_tag features msh plane_domain plane_sweep poly_reader polygons predicates simplify
+    arrangement boundary boundary_tag curve_solids features msh plane_domain plane_sweep poly_reader polygons predicates simplify
     space_ties surface surface_checks surface_readers surface_walk triangle_contacts
     # the interface
     api_adapting api_arguments api_arithmetic api_boundary api_callbacks api_checkpoints api_contexts

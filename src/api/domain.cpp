@@ -225,14 +225,17 @@ pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution)
 }
 
 pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap) {
-  return change_volume(domain, [&](VolumeDomain& volume) {
+  return change_domain(domain, [&](DomainObject& object) {
+    const auto set = [&](OverlapRule rule) {
+      visit_dimension(object, [&](auto& changed) { changed.set_fragment(rule); });
+    };
     switch (overlap) {
       case PNPBS_OVERLAP_LAST:
-        return volume.set_fragment(OverlapRule::last);
+        return set(OverlapRule::last);
       case PNPBS_OVERLAP_FIRST:
-        return volume.set_fragment(OverlapRule::first);
+        return set(OverlapRule::first);
       case PNPBS_OVERLAP_OWN:
-        return volume.set_fragment(OverlapRule::own);
+        return set(OverlapRule::own);
       default:
         throw Error(ErrorKind::argument,
                     "overlap is " + std::to_string(overlap) +

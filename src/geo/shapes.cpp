@@ -240,7 +240,7 @@ void Shapes::add_to(pnpbs_domain domain, pnpbs_context context, double corner_an
   for (const auto& [tag, name] : layer_.region_names)
     check(pnpbs_domain_set_tag_name(domain, 2, tag, name.c_str()), context);
   add_curves(domain, context, corner_angle);
-  for (const RegionPoint& region : region_points_)
+  for (const RegionPoint& region : region_points_in(domain, context))
     check(pnpbs_domain_add_region(domain, region.point.data(), region.tag), context);
   std::vector<Point<2>> points;
   std::vector<std::int32_t> tags;
@@ -265,6 +265,36 @@ void Shapes::add_curves(pnpbs_domain domain, pnpbs_context context, double corne
         coordinates.data(), curve.tags.data(), corner_angle);
     if (status < 0) throw Error(kind_of(status), words_for(curve) + last_message(context));
   }
+}
+
+// Returns the points in regions. If the domain splits curves where they cross
+// (pnpbs_domain_set_fragment), there are more of them than between the curves of the layer.
+std::vector<RegionPoint> Shapes::region_points_in(pnpbs_domain domain,
+                                                  pnpbs_context context) const {
+  if (region_points_.empty()) return {};
+  std::int64_t given = 0, count = 0;
+  for (const Curve& curve : outlines_.curves)
+    given += static_cast<std::int64_t>(segments_of(curve));
+  // The domain may not be complete yet, or is invalid, which a later check reports.
+  if (pnpbs_domain_get_segments(domain, 0, &count, nullptr, nullptr) < 0 || count == given)
+    return region_points_;
+  std::vector<double> ends(static_cast<std::size_t>(4 * count));
+  check(pnpbs_domain_get_segments(domain, count, &count, ends.data(), nullptr), context);
+  std::vector<Point<2>> points = places_;
+  std::vector<Curve> segments;
+  for (std::size_t k = 0; k < ends.size(); k += 4) {
+    // Points are sought beside the middle of the longer part of each segment. Lines of maps often
+    // have vertices at simple fractions of others, on which such a point could lie.
+    constexpr double kPart = 0.41421356;
+    const std::int64_t first = std::ssize(points);
+    const Point<2> a{ends[k], ends[k + 1]}, b{ends[k + 2], ends[k + 3]};
+    points.push_back(a);
+    points.push_back({a[0] + kPart * (b[0] - a[0]), a[1] + kPart * (b[1] - a[1])});
+    points.push_back(b);
+    segments.push_back({false, false, {first, first + 1, first + 2}, {1, 1}, true});
+  }
+  const auto where = [&](const Point<2>& point) { return with_degrees(point_text(point)); };
+  return region_points_of(segments, routes_, points, layer_.regions, where).points;
 }
 
 // Returns the coordinates in the form that a domain takes: [points][2], or [points][3] on a sphere.
@@ -386,7 +416,11 @@ bool Shapes::are_neighbours(const std::vector<const Route*>& routes) const {
 std::string Shapes::advice_on_crossing(const NamedPoint& point) const {
   const std::vector<const Route*> routes = routes_at(point);
   if (std::ranges::any_of(routes, [](const Route* at) { return at->kind == PathKind::line; }))
-    return "Give lines a common vertex where they cross: docs/guide/shapes.md, 'Lines that cross'";
+    return on_sphere()
+               ? "Give lines a common vertex where they cross: docs/guide/shapes.md, 'Lines that "
+                 "cross'"
+               : "Let --fragment (pnpbs_domain_set_fragment) split lines where they cross, or give "
+                 "them a common vertex there: docs/guide/shapes.md, 'Lines that cross'";
   if (!layer_.regions.empty() && routes.size() > 1)
     return "Regions must not overlap: subtract one polygon from the other, or give both the same "
            "vertices on their common edge: docs/guide/shapes.md, 'Neighbours that do not fit'";

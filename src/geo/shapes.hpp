@@ -54,6 +54,7 @@ class Shapes {
   void find_regions();
   void take_notes();
   void add_curves(pnpbs_domain domain, pnpbs_context context, double corner_angle) const;
+  std::vector<RegionPoint> region_points_in(pnpbs_domain domain, pnpbs_context context) const;
   std::vector<double> coordinates_of(std::vector<Point<2>> points) const;
   MessageText words_for(const Point<2>& given, std::int64_t feature) const;
   std::string words_for(const Curve& curve) const;

@@ -164,15 +164,14 @@ void refuse_other_dimension(const Arguments& arguments, int dimension) {
   if (dimension == 2 && (arguments.repair || arguments.repair_if_needed))
     refuse("--repair is for surfaces in space" + plane);
   if (dimension == 2 && arguments.resurface) refuse("--resurface is for surfaces in space" + plane);
-  if (dimension == 2 && arguments.fragment) refuse("--fragment is for surfaces in space" + plane);
   if (dimension == 2 && arguments.surfaces_only)
     refuse("--surfaces-only is for surfaces in space" + plane);
   if (dimension == 2 && !arguments.cut.empty()) refuse("--cut is for bodies" + plane);
   if (dimension == 3 && arguments.corner_angle)
     refuse(
         "--corner-angle is for domains in the plane, and this one is a body: use --feature-angle");
-  if (dimension == 3 && arguments.snap)
-    refuse("--snap is for domains in the plane, and this one is a body");
+  if (dimension == 3 && arguments.snap && !arguments.fragment)
+    refuse("--snap is for domains in the plane and, with --fragment, for bodies");
   if (arguments.sphere && arguments.snap)
     refuse("--snap is for domains in the plane, and this one is on a sphere");
   if (dimension == 3 && !arguments.sphere && !arguments.open_boundary.empty())

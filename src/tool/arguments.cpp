@@ -291,7 +291,8 @@ void add_curves(CLI::App& app, Arguments& arguments) {
          },
          "in the plane: move ends of curves, and fixed nodes, onto a curve\n"
          "or vertex that they miss by this length or less; default: 1e-7\n"
-         "of the size of the domain; 0: move none")
+         "of the size of the domain; 0: move none; in space with --fragment:\n"
+         "close gaps between surfaces, and overlaps, up to this length")
       ->type_name("LENGTH")
       ->group(group);
   app.add_option_function<std::string>(
@@ -417,10 +418,10 @@ void add_fragment(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::vector<std::string>>(
          "--fragment",
          [&arguments](const std::vector<std::string>& text) { take_fragment(text, arguments); },
-         "in space: split surfaces where they meet: the closed groups of the\n"
-         "file and the sheets between become regions of one body; where\n"
-         "groups overlap, the elements have the tag of the last one (or the\n"
-         "first), or own: a tag for each combination")
+         "split curves, or surfaces in space, where they meet: the closed\n"
+         "groups of the file, and what others divide, become regions of one\n"
+         "domain; where groups overlap, the elements have the tag of the\n"
+         "last one (or the first), or own: a tag for each combination")
       ->expected(0, 1)
       ->type_name("[last|first|own]")
       ->group("What to fill");

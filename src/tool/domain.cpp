@@ -222,9 +222,16 @@ void DomainSource::check_domain(pnpbs_domain domain, pnpbs_context context, bool
                 << pnpbs_last_error(context) << "\n";
     return repair(domain, 0, context);
   }
-  if (geo_ && status < 0)
-    throw Failure(exit_code_of(status), geo_->explained(pnpbs_last_error(context)));
-  check(status, context);
+  if (status >= 0) return;
+  std::string message = pnpbs_last_error(context);
+  std::int32_t reason = PNPBS_REASON_OTHER;
+  check(pnpbs_last_error_data(context, &reason, nullptr), context);
+  if (geo_) {
+    message = geo_->explained(message);
+  } else if (reason == PNPBS_REASON_CROSSING && !fragment_) {
+    message += "\n--fragment splits curves where they cross or overlap";
+  }
+  throw Failure(exit_code_of(status), message);
 }
 
 void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const {
@@ -259,6 +266,7 @@ void DomainSource::create(pnpbs_context context, pnpbs_domain* domain) const {
 
 void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   if (is_whole_sphere()) return;
+  if (fragment_) check(pnpbs_domain_set_fragment(domain, *fragment_), context);
   if (geo_) {
     geo_->read();
     return geo_->add_to(domain, context, corner_angle_);
@@ -267,7 +275,6 @@ void DomainSource::add_to(pnpbs_domain domain, pnpbs_context context) const {
   check(pnpbs_domain_set_filled(domain, filled_ ? 1 : 0), context);
   if (repair_) check(pnpbs_domain_set_repair(domain, *repair_), context);
   if (resurface_) check(pnpbs_domain_set_resurfaced(domain, *resurface_), context);
-  if (fragment_) check(pnpbs_domain_set_fragment(domain, *fragment_), context);
   if (is_msh()) return read_msh(domain, context);
   if (level_set_) return level_set_->add_to(domain, context);
   if (primitive_) return add(*primitive_, domain, context);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -26,7 +28,15 @@ struct GivenPoint {
   std::int32_t tag;
   bool corner;
   bool curve_end;
+  bool crossing = false;
 };
+
+// Distance within which a crossing lies on the edges that cross. It covers the rounding of its
+// coordinates, which is large far from the origin. [unit of the last digit]
+constexpr double kCrossingDigits = 16;
+
+// Edges are split at a vertex within this distance if a crossing was joined to it. [distance above]
+constexpr double kJoinedCrossing = 2;
 
 bool is_corner(const CurveSource& source, std::int64_t point) {
   if (source.kind == Kind::graph) return source.corners.empty() || source.corners[point];
@@ -45,9 +55,14 @@ bool is_corner(const CurveSource& source, std::int64_t point) {
 class Joiner {
  public:
   Joiner(const std::vector<CurveSource>& sources, const std::vector<FixedNode<2>>& fixed_nodes,
-         double size)
-      : sources_(sources), fixed_nodes_(fixed_nodes) {
+         const std::vector<Point<2>>& crossings, Unite unite, double size)
+      : sources_(sources), fixed_nodes_(fixed_nodes), crossings_(crossings), unite_(unite) {
     graph_.size = size;
+    double farthest = 0;
+    for (const Point<2>& x : crossings)
+      farthest = std::max({farthest, std::fabs(x[0]), std::fabs(x[1])});
+    same_crossing_ = std::max(kSamePoint * size,
+                              kCrossingDigits * std::numeric_limits<double>::epsilon() * farthest);
   }
 
   DomainGraph run() {
@@ -56,6 +71,7 @@ class Joiner {
     make_vertices();
     make_edges();
     split_edges();
+    if (unite_ != Unite::none) unite_edges();
     count_degrees();
     return std::move(graph_);
   }
@@ -76,6 +92,11 @@ class Joiner {
       const auto fixed = static_cast<std::int32_t>(f);
       given_.push_back({-1, fixed, fixed, fixed_nodes_[f].tag, true, false});
       positions_.push_back(fixed_nodes_[f].position);
+    }
+    for (const Point<2>& crossing : crossings_) {
+      const auto number = static_cast<std::int64_t>(given_.size());
+      given_.push_back({-1, number, -1, 0, true, false, true});
+      positions_.push_back(crossing);
     }
     if (given_.size() >= (std::size_t{1} << 31) - 1)
       reject_domain("the domain has 2^31 points or more");
@@ -104,18 +125,23 @@ class Joiner {
   // Joins point p to the nearest earlier point within the tolerance that is not itself joined.
   void join_nearest(std::int32_t p, const PointTree& tree) {
     std::pair<double, std::int32_t> nearest{graph_.size, p};
-    tree.for_each_near(positions_[p], positions_[p], kSameCurveEnd * graph_.size,
+    tree.for_each_near(positions_[p], positions_[p],
+                       std::max(kSameCurveEnd * graph_.size, same_crossing_),
                        [&](std::int32_t other, double distance) {
                          if (other == p || root_[other] != other || is_mere_sample(other)) return;
                          if (other > p && !is_mere_sample(p)) return;
-                         const bool end = given_[p].curve_end || given_[other].curve_end;
-                         const double same = end ? kSameCurveEnd : kSamePoint;
-                         if (distance > same * graph_.size) return;
+                         if (distance > same_position(given_[p], given_[other])) return;
                          nearest = std::min(nearest, {distance, other});
                        });
     if (nearest.second == p) return;
     require_may_join(nearest.second, p);
     root_[p] = nearest.second;
+  }
+
+  // Returns the distance within which two points have the same position.
+  double same_position(const GivenPoint& a, const GivenPoint& b) const {
+    if (a.crossing || b.crossing) return same_crossing_;
+    return (a.curve_end || b.curve_end ? kSameCurveEnd : kSamePoint) * graph_.size;
   }
 
   void require_may_join(std::int32_t a, std::int32_t b) const {
@@ -147,6 +173,7 @@ class Joiner {
   // smooth curves have the lowest.
   int weight(std::int32_t point) const {
     if (given_[point].fixed >= 0) return 2;
+    if (given_[point].crossing) return 1;
     return sources_[given_[point].source].kind == Kind::smooth ? 0 : 1;
   }
 
@@ -158,8 +185,8 @@ class Joiner {
       if (vertex < 0) {
         const GivenPoint& root = given_[root_[p]];
         vertex = static_cast<std::int32_t>(graph_.vertices.size());
-        graph_.vertices.push_back(
-            {positions_[root_[p]], root.source, root.index, root.fixed, root.tag, 0, root.corner});
+        graph_.vertices.push_back({positions_[root_[p]], root.source, root.index, root.fixed,
+                                   root.tag, 0, root.corner, root.crossing});
         weights.push_back(weight(root_[p]));
       }
       vertex_of_[p] = vertex;
@@ -170,6 +197,7 @@ class Joiner {
   void add_to_vertex(GraphVertex& vertex, std::int32_t point, int& max_weight) {
     const GivenPoint& given = given_[point];
     vertex.corner = true;  // curves meet here
+    vertex.crossing = vertex.crossing || given.crossing;
     if (vertex.fixed < 0) vertex.fixed = given.fixed;
     if (given.fixed >= 0 || vertex.tag == 0) vertex.tag = given.tag;
     if (weight(point) <= max_weight) return;
@@ -205,9 +233,11 @@ class Joiner {
     const Point<2>& a = graph_.vertices[ends[0]].position;
     const Point<2>& b = graph_.vertices[ends[1]].position;
     Stops stops;
-    tree.for_each_near(a, b, kSamePoint * graph_.size, [&](std::int32_t which, double) {
+    const double same = kSamePoint * graph_.size, reach = kJoinedCrossing * same_crossing_;
+    tree.for_each_near(a, b, std::max(same, reach), [&](std::int32_t which, double distance) {
       const std::int32_t vertex = splitting_[which];
       if (vertex == ends[0] || vertex == ends[1]) return;
+      if (distance > (graph_.vertices[vertex].crossing ? reach : same)) return;
       const Point<2>& p = graph_.vertices[vertex].position;
       const double ux = b[0] - a[0], uy = b[1] - a[1];
       const double fraction = ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / (ux * ux + uy * uy);
@@ -249,6 +279,30 @@ class Joiner {
     graph_.ends = std::move(ends);
   }
 
+  // Unites straight edges with the same ends. Chains of edges end there, so the ends are corners.
+  void unite_edges() {
+    std::map<VertexPair, std::int32_t> first;
+    std::size_t kept = 0;
+    for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+      const GraphEdge& edge = graph_.edges[e];
+      const auto& [a, b] = graph_.ends[e];
+      if (sources_[edge.source].kind != Kind::smooth) {
+        const auto [entry, is_new] = first.try_emplace(VertexPair{std::min(a, b), std::max(a, b)},
+                                                       static_cast<std::int32_t>(kept));
+        const bool same_source = graph_.edges[entry->second].source == edge.source;
+        if (!is_new && (unite_ == Unite::all || !same_source)) {
+          graph_.vertices[a].corner = graph_.vertices[b].corner = true;
+          graph_.united.push_back({entry->second, edge});
+          continue;
+        }
+      }
+      graph_.edges[kept] = edge;
+      graph_.ends[kept++] = graph_.ends[e];
+    }
+    graph_.edges.resize(kept);
+    graph_.ends.resize(kept);
+  }
+
   void count_degrees() {
     for (const VertexPair& ends : graph_.ends) {
       ++graph_.vertices[ends[0]].degree;
@@ -261,6 +315,9 @@ class Joiner {
 
   const std::vector<CurveSource>& sources_;
   const std::vector<FixedNode<2>>& fixed_nodes_;
+  const std::vector<Point<2>>& crossings_;
+  Unite unite_;
+  double same_crossing_;  // distance within which a crossing has the position of another point
   DomainGraph graph_;
   std::vector<GivenPoint> given_;
   std::vector<Point<2>> positions_;
@@ -281,12 +338,14 @@ double domain_size(const std::vector<CurveSource>& sources) {
 }
 
 DomainGraph join_sources(const std::vector<CurveSource>& sources,
-                         const std::vector<FixedNode<2>>& fixed_nodes, double size) {
-  return Joiner(sources, fixed_nodes, size).run();
+                         const std::vector<FixedNode<2>>& fixed_nodes,
+                         const std::vector<Point<2>>& crossings, Unite unite, double size) {
+  return Joiner(sources, fixed_nodes, crossings, unite, size).run();
 }
 
 std::string vertex_name(const GraphVertex& vertex, const std::vector<CurveSource>& sources,
                         const std::vector<FixedNode<2>>& fixed_nodes) {
+  if (vertex.is_only_crossing()) return "a crossing of curves";
   if (vertex.source < 0) return fixed_nodes[vertex.fixed].name;
   return sources[vertex.source].point_name(vertex.index);
 }

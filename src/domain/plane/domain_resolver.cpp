@@ -2,15 +2,20 @@
 #include "domain/plane/domain_resolver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/domain_size.hpp"
 #include "domain/plane/conflicts.hpp"
+#include "domain/plane/curve_crossings.hpp"
+#include "domain/plane/curve_solids.hpp"
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "domain/plane/sampling.hpp"
@@ -64,7 +69,8 @@ struct Attachable {
 };
 
 std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
-                                    const std::vector<FixedNode<2>>& fixed_nodes, double size) {
+                                    const std::vector<FixedNode<2>>& fixed_nodes,
+                                    const std::vector<Point<2>>& crossings, double size) {
   std::vector<Attachable> result;
   for (const CurveSource& source : sources) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(source.points.size()); ++i) {
@@ -74,6 +80,7 @@ std::vector<Attachable> attachables(const std::vector<CurveSource>& sources,
     }
   }
   for (const FixedNode<2>& node : fixed_nodes) result.push_back({node.position, kSamePoint * size});
+  for (const Point<2>& crossing : crossings) result.push_back({crossing, kSamePoint * size});
   return result;
 }
 
@@ -98,15 +105,16 @@ void attach(CurveSource& curve, const std::vector<Attachable>& all, const PointT
   if (!added.empty()) insert(curve, added);
 }
 
-// Adds vertices, curve ends and fixed nodes that lie on smooth curves to the samples of these
-// curves.
+// Adds vertices, curve ends, fixed nodes and crossings that lie on smooth curves to the samples of
+// these curves.
 void attach_to_smooth_curves(std::vector<CurveSource>& sources,
-                             const std::vector<FixedNode<2>>& fixed_nodes, double size) {
+                             const std::vector<FixedNode<2>>& fixed_nodes,
+                             const std::vector<Point<2>>& crossings, double size) {
   const bool any = std::any_of(sources.begin(), sources.end(), [](const CurveSource& source) {
     return source.kind == Kind::smooth;
   });
   if (!any) return;
-  const std::vector<Attachable> all = attachables(sources, fixed_nodes, size);
+  const std::vector<Attachable> all = attachables(sources, fixed_nodes, crossings, size);
   std::vector<Point<2>> points;
   for (const Attachable& attachable : all) points.push_back(attachable.point);
   const PointTree tree(std::move(points));
@@ -115,10 +123,11 @@ void attach_to_smooth_curves(std::vector<CurveSource>& sources,
   }
 }
 
-// Halves the chords of smooth curves that are in conflict, because the curves themselves may not
-// be. Returns false if none exist.
-bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGraph& graph,
-                               const std::vector<SweepConflict>& conflicts) {
+// Halves the chords of smooth curves among these edges, -1 for none. Returns false if there are
+// none.
+template <class EdgePairs>
+bool refine_chords(std::vector<CurveSource>& sources, const DomainGraph& graph,
+                   const EdgePairs& pairs) {
   std::vector<NewSamples> added(sources.size());
   const auto halve = [&](std::int32_t e) {
     const GraphEdge& edge = graph.edges[e];
@@ -129,10 +138,9 @@ bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGr
     const Point<2> point = curve_points(curve.evaluate, {t}, curve.segment_name(0))[0];
     added[edge.source].push_back({edge.segment, {t, point}});
   };
-  for (const SweepConflict& conflict : conflicts) {
-    halve(conflict.edge);
-    if (conflict.other >= 0) halve(conflict.other);
-  }
+  for (const std::array<std::int32_t, 2>& pair : pairs)
+    for (const std::int32_t edge : pair)
+      if (edge >= 0) halve(edge);
   bool any = false;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     if (added[s].empty()) continue;
@@ -140,6 +148,13 @@ bool refine_conflicting_chords(std::vector<CurveSource>& sources, const DomainGr
     any = true;
   }
   return any;
+}
+
+// Returns the pairs of edges in conflict; the second is -1 for a vertex on an edge.
+std::vector<std::array<std::int32_t, 2>> edges_in(const std::vector<SweepConflict>& conflicts) {
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  for (const SweepConflict& conflict : conflicts) pairs.push_back({conflict.edge, conflict.other});
+  return pairs;
 }
 
 struct Extent {
@@ -192,8 +207,13 @@ Extent extent_of(const std::vector<BoundaryCurve>& curves) {
   return {box, 0.5 * (sum.high + sum.low)};
 }
 
-// Rounds of halving the chords of smooth curves before a conflict is reported.
+// Rounds of halving the chords of smooth curves in conflict, because the curves themselves may not
+// be, before the conflict is real.
 constexpr int kRefinements = 8;
+
+// Most rounds in which curves are split where they cross. Mostly one suffices. Where rounding bends
+// edges, they can cross again.
+constexpr int kMostSplittings = 20;
 
 // Builds the index from chords of smooth curves, since nodes keep farther from the curves than the
 // chords do.
@@ -210,25 +230,27 @@ std::shared_ptr<const RegionIndex<2>> regions_of(const std::vector<BoundaryCurve
 class Resolver {
  public:
   Resolver(std::vector<CurveSource>& sources, const std::vector<RegionPoint<2>>& region_points,
-           const std::vector<FixedNode<2>>& fixed_nodes)
-      : sources_(sources), region_points_(region_points), fixed_nodes_(fixed_nodes) {}
+           const std::vector<FixedNode<2>>& fixed_nodes, std::optional<OverlapRule> fragment)
+      : sources_(sources),
+        region_points_(region_points),
+        fixed_nodes_(fixed_nodes),
+        fragment_(fragment) {}
 
   ResolvedDomain run() {
     make_graph();
-    reject_conflicts({sources_, region_points_, fixed_nodes_, graph_, points_, sweep_});
-    const bool graph_rule = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) {
-      return source.kind == Kind::graph;
-    });
-    if (!graph_rule) require_closed_boundary();
-    faces_ = find_faces(points_, graph_.ends, sweep_);
-    if (graph_rule) {
-      find_inside_of_graph();
-    } else {
-      find_inside_of_boundary();
+    std::vector<std::int32_t> solid_tags;  // per face; empty if curves do not meet
+    if (fragment_) {
+      solid_tags = split_curves();
+    } else if (!sweep_.conflicts.empty()) {
+      solid_tags = unite_touching_curves();
     }
+    if (solid_tags.empty()) find_inside();
     const auto face_of = [this](std::size_t k) { return face_of_point(k); };
     remove_holes(region_points_, face_of, inside_, result_.warnings);
     region_tags_ = tags_of_parts(region_points_, face_of, inside_, result_.warnings);
+    if (!solid_tags.empty()) region_tags_.resize(inside_.size(), 0);
+    for (std::size_t face = 0; face < solid_tags.size(); ++face)
+      if (region_tags_[face] == 0) region_tags_[face] = solid_tags[face];
     number_inner_faces();
     keep_edges();
     add_isolated_vertices();
@@ -251,15 +273,93 @@ class Resolver {
     require_domain_size(size);
     for (const CurveSource& source : sources_)
       for (const Point<2>& point : source.points) require_near_origin<2>(size, point);
-    attach_to_smooth_curves(sources_, fixed_nodes_, size);
+    attach_to_smooth_curves(sources_, fixed_nodes_, {}, size);
     for (int round = 0;; ++round) {
-      graph_ = join_sources(sources_, fixed_nodes_, size);
-      points_.clear();
-      for (const GraphVertex& vertex : graph_.vertices) points_.push_back(vertex.position);
-      for (const RegionPoint<2>& point : region_points_) points_.push_back(point.point);
-      sweep_ = sweep_plane(points_, graph_.ends);
+      join(Unite::none, size);
       if (round == kRefinements) break;
-      if (!refine_conflicting_chords(sources_, graph_, sweep_.conflicts)) break;
+      if (!refine_chords(sources_, graph_, edges_in(sweep_.conflicts))) break;
+    }
+  }
+
+  void join(Unite unite, double size) {
+    graph_ = join_sources(sources_, fixed_nodes_, crossings_, unite, size);
+    points_.clear();
+    for (const GraphVertex& vertex : graph_.vertices) points_.push_back(vertex.position);
+    for (const RegionPoint<2>& point : region_points_) points_.push_back(point.point);
+    sweep_ = sweep_plane(points_, graph_.ends);
+  }
+
+  void require_no_conflicts() const {
+    reject_conflicts({sources_, region_points_, fixed_nodes_, graph_, points_, sweep_});
+  }
+
+  bool has_conflicts() const {
+    return !sweep_.conflicts.empty() ||
+           std::ranges::any_of(sweep_.coincident, [this](const VertexPair& pair) {
+             return index(pair[0]) < graph_.vertices.size() &&
+                    index(pair[1]) < graph_.vertices.size();
+           });
+  }
+
+  // ------------------------------------------------------------ solids
+  // Splits curves where they meet and finds the faces in the solids that they describe. Returns the
+  // tag of each face.
+  std::vector<std::int32_t> split_curves() {
+    const CurveSolids solids(sources_, graph_);
+    const double size = graph_.size;
+    for (int round = 0; round < kMostSplittings && has_conflicts(); ++round) {
+      const auto pairs = crossing_edges(graph_, points_);
+      if (round > 0 && pairs.empty()) break;
+      if (round >= kRefinements || !refine_chords(sources_, graph_, pairs)) {
+        for (const auto& [edge, other] : pairs)
+          crossings_.push_back(meeting_point(sources_, graph_, points_, edge, other));
+        attach_to_smooth_curves(sources_, fixed_nodes_, crossings_, size);
+      }
+      join(Unite::all, size);
+    }
+    require_no_conflicts();
+    faces_ = find_faces(points_, graph_.ends, sweep_);
+    return find_inside_of_solids(solids.around(graph_, faces_), *fragment_);
+  }
+
+  // Unites edges of different curves that lie on each other, if this leaves no conflicts and no
+  // solids overlap, and returns the tag of each face. Otherwise changes nothing and returns none.
+  std::vector<std::int32_t> unite_touching_curves() {
+    const CurveSolids solids(sources_, graph_);
+    DomainGraph given = graph_;
+    SweepResult given_sweep = sweep_;
+    join(Unite::of_different_sources, graph_.size);
+    if (sweep_.conflicts.empty()) {
+      faces_ = find_faces(points_, graph_.ends, sweep_);
+      const auto around = solids.around(graph_, faces_);
+      const auto most = std::ranges::max(around, {}, [](const auto& in) { return in.size(); });
+      if (most.size() == 1) return find_inside_of_solids(around, OverlapRule::last);
+    }
+    graph_ = std::move(given);
+    sweep_ = std::move(given_sweep);
+    return {};
+  }
+
+  std::vector<std::int32_t> find_inside_of_solids(
+      const std::vector<std::vector<std::int32_t>>& around, OverlapRule overlap) {
+    inside_.clear();
+    for (const std::vector<std::int32_t>& solids : around) inside_.push_back(!solids.empty());
+    if (std::ranges::find(inside_, 1) == inside_.end()) reject_domain("the curves enclose nothing");
+    return tags_by_solids(around, overlap).of_regions;
+  }
+
+  // Finds the inside of curves that do not meet.
+  void find_inside() {
+    require_no_conflicts();
+    const bool graph_rule = std::any_of(sources_.begin(), sources_.end(), [](const auto& source) {
+      return source.kind == Kind::graph;
+    });
+    if (!graph_rule) require_closed_boundary();
+    faces_ = find_faces(points_, graph_.ends, sweep_);
+    if (graph_rule) {
+      find_inside_of_graph();
+    } else {
+      find_inside_of_boundary();
     }
   }
 
@@ -365,7 +465,7 @@ class Resolver {
         reject_domain(fixed_nodes_[vertex.fixed].name + " at " + point_text(vertex.position) +
                       " lies outside the domain");
       }
-      if (vertex.degree > 0) continue;
+      if (vertex.degree > 0 || vertex.is_only_crossing()) continue;
       const std::string name = vertex_name(vertex, sources_, fixed_nodes_);
       if (vertex.fixed < 0) (in_face ? unused : outside).push_back(name);
       if (!in_face) continue;
@@ -485,6 +585,8 @@ class Resolver {
   std::vector<CurveSource>& sources_;
   const std::vector<RegionPoint<2>>& region_points_;
   const std::vector<FixedNode<2>>& fixed_nodes_;
+  std::optional<OverlapRule> fragment_;
+  std::vector<Point<2>> crossings_;  // found so far
   DomainGraph graph_;
   std::vector<Point<2>> points_;  // vertices of the graph, then region points
   SweepResult sweep_;
@@ -501,8 +603,9 @@ class Resolver {
 
 ResolvedDomain resolve_domain(std::vector<CurveSource>& sources,
                               const std::vector<RegionPoint<2>>& region_points,
-                              const std::vector<FixedNode<2>>& fixed_nodes) {
-  return Resolver(sources, region_points, fixed_nodes).run();
+                              const std::vector<FixedNode<2>>& fixed_nodes,
+                              std::optional<OverlapRule> fragment) {
+  return Resolver(sources, region_points, fixed_nodes, fragment).run();
 }
 
 }  // namespace pnpbs

@@ -260,6 +260,12 @@ void PlaneDomain::set_snap(double length) {
   checked_ = false;
 }
 
+void PlaneDomain::set_fragment(OverlapRule overlap) {
+  if (embedding_.is_sphere()) reject("on a sphere curves are not split where they meet");
+  fragment_ = overlap;
+  checked_ = false;
+}
+
 LeftOut PlaneDomain::simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule) {
   require_not_negative("tolerance", rule.tolerance);
   require_not_negative("smallest", rule.smallest);
@@ -349,7 +355,7 @@ void PlaneDomain::check() {
   if (!embedding_.is_sphere())  // the scale of a chart varies
     if (auto warning = snap_loose_points(sources_, given_nodes_, snap_))
       add_warning(std::move(*warning));
-  resolved_ = resolve_domain(sources_, region_points_, given_nodes_);
+  resolved_ = resolve_domain(sources_, region_points_, given_nodes_, fragment_);
   if (closing_) follow_patch();
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());

@@ -18,6 +18,7 @@
 #include "domain/region_index.hpp"
 #include "domain/spacing_evaluator.hpp"
 #include "sphere/embedding.hpp"
+#include "surfaces/solids.hpp"
 
 namespace pnpbs {
 
@@ -153,6 +154,9 @@ class PlaneDomain : public DomainBase<2> {
   void set_corner_angle(double corner_angle);
   // Sets the distance up to which loose points are moved onto curves (plane/snapping.hpp).
   void set_snap(double length);
+  // Splits curves where they meet: the solids that they describe become regions of one domain.
+  // `overlap` decides the tags of regions in several solids.
+  void set_fragment(OverlapRule overlap);
   // Removes details finer than d from what was given until now (plane/simplify.hpp). Leaves the
   // domain unchanged if it throws.
   LeftOut simplify(const LocalSpacingEvaluator<2>& spacing, const SimplifyRule& rule);
@@ -198,8 +202,9 @@ class PlaneDomain : public DomainBase<2> {
   // On a closed sphere, the number of sources and nodes that the user gave.
   std::size_t open_sources_ = 0, open_nodes_ = 0;
   std::vector<CurveSource> sources_;
-  double corner_angle_ = 0;     // of graphs
-  std::optional<double> snap_;  // the default is kSnap
+  double corner_angle_ = 0;              // of graphs
+  std::optional<double> snap_;           // the default is kSnap
+  std::optional<OverlapRule> fragment_;  // set if curves are split where they meet
   std::int64_t curves_given_ = 0, graphs_given_ = 0;
   ResolvedDomain resolved_;
 };

@@ -129,7 +129,7 @@ class Simplifier {
       : sources_(sources),
         region_points_(region_points),
         rule_(rule),
-        graph_(join_sources(sources, fixed_nodes, domain_size(sources))) {}
+        graph_(join_sources(sources, fixed_nodes, {}, Unite::none, domain_size(sources))) {}
 
   LeftOut run(const LocalSpacingEvaluator<2>& spacing) {
     std::vector<Point<2>> positions;
