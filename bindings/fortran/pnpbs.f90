@@ -1122,19 +1122,25 @@ contains
                   errmsg)
   end subroutine
 
-  !> Splits the surfaces of a domain in space where they cross, touch or lie on each other, so that
-  !> several solids and sheets become regions of one body with common nodes and facets. Each box,
-  !> ball, cylinder and level set is a solid, and so is each closed group of an added surface, which
-  !> are its triangles with one tag: a solid contains the points around which it winds, so triangles
-  !> of a cavity are oriented into it. The other triangles of a surface enclose a further solid.
-  !> The body is what any solid contains. Surfaces that enclose nothing are inner surfaces, and
-  !> parts of them outside of the body are left out. The first of several triangles that lie on each
-  !> other gives the tag. The k-th solid, counted from 1 in the order in which they are added (the
-  !> groups of a surface by tag), gives its elements the region tag k. add_region sets other tags,
-  !> and add_hole removes regions. Without this call, surfaces that touch are accepted if no solids
+  !> Splits the curves or surfaces of a domain where they cross, touch or lie on each other, so that
+  !> several solids, sheets and curves become regions of one domain with common nodes and facets.
+  !> The domain is what any solid contains. Curves and surfaces that enclose nothing lie inside of
+  !> it, and their parts outside are left out. The first of several curves or triangles that lie on
+  !> each other gives the tag. The k-th solid, counted from 1 in the order in which they are added
+  !> (groups by tag), gives its elements the region tag k. add_region sets other tags, and add_hole
+  !> removes regions.
+  !> In space each box, ball, cylinder and level set is a solid, and so is each closed group of an
+  !> added surface, which are its triangles with one tag: a solid contains the points around which
+  !> it winds, so triangles of a cavity are oriented into it. The other triangles of a surface
+  !> enclose a further solid. Without this call, surfaces that touch are accepted if no solids
   !> overlap and each surface ends on others, as for stacked boxes and for a sheet from side to side
-  !> of a box. Excludes
-  !> set_repair. Local.
+  !> of a box. Gaps up to the length of set_snap are closed.
+  !> In the plane each closed boundary curve is a solid, and so are boundary curves that are joined
+  !> at their ends to a closed one. It is a cavity if the solid before it encloses it and runs
+  !> around in the other direction. Each closed group of a graph, which are its segments with one
+  !> tag, is a solid, and the rest of what the graph encloses is a further one. Without this call,
+  !> curves that touch, also along common edges, are accepted if no solids overlap. Excludes
+  !> set_repair. Not on a sphere. Local.
   !>   overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN: the region tag where
   !>            solids overlap
   subroutine domain_set_fragment(self, overlap, stat, errmsg)
@@ -1250,11 +1256,14 @@ contains
                   errmsg)
   end subroutine
 
-  !> Sets the largest distance over which loose points of a domain in the plane are moved onto a
-  !> curve or vertex that they miss: ends of open curves, ends of segments that join no other one,
-  !> and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of its
-  !> bounding box. check moves them, with a warning; set it before. On a sphere none are moved.
-  !> Local.
+  !> In the plane, sets the largest distance over which loose points are moved onto a curve or
+  !> vertex that they miss: ends of open curves, ends of segments that join no other one, and fixed
+  !> nodes. By default it is 1e-7 of the size of the domain, the longest side of its bounding box.
+  !> check moves them, with a warning; set it before. With 0, none are moved. On a sphere none are
+  !> moved. In space, with set_fragment, surfaces become one where they are no farther from each
+  !> other, with the same warning: gaps between solids and thin overlaps are closed. Vertices within
+  !> 16 times the length are then merged, and what is thinner is lost. By default no gaps are
+  !> closed. Local.
   !>   length  0: none are moved
   subroutine domain_set_snap(self, length, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self

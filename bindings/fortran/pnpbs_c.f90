@@ -40,7 +40,7 @@ module pnpbs_c
 
   !> What else is known of an error, for programs that act on it: the status and this number decide,
   !> never the text. PNPBS_REASON_CROSSING comes with PNPBS_ERROR_DOMAIN: segments of curves cross
-  !> or overlap. More may be added.
+  !> or overlap, which pnpbs_domain_set_fragment allows. More may be added.
   integer(c_int32_t), parameter :: PNPBS_REASON_OTHER = 0
   integer(c_int32_t), parameter :: PNPBS_REASON_CROSSING = 1
 
@@ -50,9 +50,10 @@ module pnpbs_c
   integer(c_int32_t), parameter :: PNPBS_BOUNDARY = 0
   integer(c_int32_t), parameter :: PNPBS_INNER = 1
 
-  !> The region tag of a part of space that several solids contain; see pnpbs_domain_set_fragment.
-  !> PNPBS_OVERLAP_LAST and PNPBS_OVERLAP_FIRST: that of the solid added last or first.
-  !> PNPBS_OVERLAP_OWN: one for each combination of solids, following those of the solids.
+  !> The region tag of a part of a domain that several solids contain; see
+  !> pnpbs_domain_set_fragment. PNPBS_OVERLAP_LAST and PNPBS_OVERLAP_FIRST: that of the solid added
+  !> last or first. PNPBS_OVERLAP_OWN: one for each combination of solids, following those of the
+  !> solids.
   integer(c_int32_t), parameter :: PNPBS_OVERLAP_LAST = 0
   integer(c_int32_t), parameter :: PNPBS_OVERLAP_FIRST = 1
   integer(c_int32_t), parameter :: PNPBS_OVERLAP_OWN = 2

@@ -136,7 +136,7 @@ PNPBS_API const char *pnpbs_last_error(pnpbs_context context);
 
 /** What else is known of an error, for programs that act on it: the status and this number decide,
  *  never the text. PNPBS_REASON_CROSSING comes with PNPBS_ERROR_DOMAIN: segments of curves cross or
- *  overlap. More may be added. */
+ *  overlap, which pnpbs_domain_set_fragment allows. More may be added. */
 #define PNPBS_REASON_OTHER 0
 #define PNPBS_REASON_CROSSING 1
 
@@ -341,27 +341,36 @@ PNPBS_API pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resol
  *                         of the bounding box of the triangles */
 PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
 
-/** The region tag of a part of space that several solids contain; see pnpbs_domain_set_fragment.
+/** The region tag of a part of a domain that several solids contain; see pnpbs_domain_set_fragment.
  *  PNPBS_OVERLAP_LAST and PNPBS_OVERLAP_FIRST: that of the solid added last or first.
  *  PNPBS_OVERLAP_OWN: one for each combination of solids, following those of the solids. */
 #define PNPBS_OVERLAP_LAST 0
 #define PNPBS_OVERLAP_FIRST 1
 #define PNPBS_OVERLAP_OWN 2
 
-/** Splits the surfaces of a domain in space where they cross, touch or lie on each other, so that
- *  several solids and sheets become regions of one body with common nodes and facets. Each box,
- *  ball, cylinder and level set is a solid, and so is each closed group of an added surface, which
- *  are its triangles with one tag: a solid contains the points around which it winds, so triangles
- *  of a cavity are oriented into it. The other triangles of a surface enclose a further solid. The
- *  body is what any solid contains. Surfaces that enclose nothing are inner surfaces, and parts
- *  of them outside of the body are left out. The first of several triangles that lie on each other
- *  gives the tag. The k-th solid, counted from 1 in the order in which they are added (the groups
- *  of a surface by tag), gives its elements the region tag k. pnpbs_domain_add_region sets other
- *  tags, and pnpbs_domain_add_hole removes regions. Without this call, surfaces that touch are
- *  accepted if no solids overlap and each surface ends on others, as for stacked boxes and for a
- *  sheet from side to side of a box; others are an error of pnpbs_domain_check. Intersections are
- *  computed exactly and rounded once. Excludes pnpbs_domain_set_repair. Local. Errors:
- *  PNPBS_ERROR_ARGUMENT.
+/** Splits the curves or surfaces of a domain where they cross, touch or lie on each other, so that
+ *  several solids, sheets and curves become regions of one domain with common nodes and facets. The
+ *  domain is what any solid contains. Curves and surfaces that enclose nothing lie inside of it,
+ * and their parts outside are left out. The first of several curves or triangles that lie on each
+ * other gives the tag. The k-th solid, counted from 1 in the order in which they are added (groups
+ * by tag), gives its elements the region tag k. pnpbs_domain_add_region sets other tags, and
+ *  pnpbs_domain_add_hole removes regions. Intersections are computed exactly and rounded once.
+ *
+ *  In space each box, ball, cylinder and level set is a solid, and so is each closed group of an
+ *  added surface, which are its triangles with one tag: a solid contains the points around which it
+ *  winds, so triangles of a cavity are oriented into it. The other triangles of a surface enclose a
+ *  further solid. Without this call, surfaces that touch are accepted if no solids overlap and each
+ *  surface ends on others, as for stacked boxes and for a sheet from side to side of a box; others
+ *  are an error of pnpbs_domain_check. Gaps up to the length of pnpbs_domain_set_snap are closed.
+ *
+ *  In the plane each closed boundary curve is a solid, and so are boundary curves that are joined
+ *  at their ends to a closed one. It is a cavity if the solid before it encloses it and runs around
+ *  in the other direction. Each closed group of a graph (pnpbs_domain_add_pslg), which are its
+ *  segments with one tag, is a solid, and the rest of what the graph encloses is a further one.
+ *  Without this call, curves that touch, also along common edges, are accepted if no solids
+ *  overlap.
+ *
+ *  Excludes pnpbs_domain_set_repair. Not on a sphere. Local. Errors: PNPBS_ERROR_ARGUMENT.
  *  @param[in] overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN */
 PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 
@@ -596,12 +605,15 @@ typedef int32_t (*pnpbs_spacing_fn)(int64_t n, int32_t dim, const double *coordi
  *  @param[in] corner_angle  degrees, 0 .. 180. 0, the default: every vertex becomes a node */
 PNPBS_API pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_angle);
 
-/** Sets the largest distance over which loose points of a domain in the plane are moved onto a
- *  curve or vertex that they miss: ends of open curves, ends of segments that join no other one,
- *  and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of its
- *  bounding box. pnpbs_domain_check moves them, with PNPBS_WARNING_VERTICES_MERGED; set it before.
- *  On a sphere none are moved. Local.
- *  @param[in] length  0: none are moved */
+/** In the plane, sets the largest distance over which loose points are moved onto a curve or vertex
+ *  that they miss: ends of open curves, ends of segments that join no other one, and fixed nodes.
+ *  By default it is 1e-7 of the size of the domain, the longest side of its bounding box.
+ *  pnpbs_domain_check moves them, with PNPBS_WARNING_VERTICES_MERGED; set it before. On a sphere
+ *  none are moved. In space, with pnpbs_domain_set_fragment, surfaces become one where they are no
+ *  farther from each other, with the same warning: gaps between solids and thin overlaps are
+ * closed. Vertices within 16 times the length are then merged, and what is thinner is lost. By
+ * default no gaps are closed. Local.
+ *  @param[in] length  0: none are moved, and no gaps are closed */
 PNPBS_API pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length);
 
 /** Removes features finer than d, such as those of coastlines, from a domain in the plane. From the

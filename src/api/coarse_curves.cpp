@@ -27,7 +27,9 @@ pnpbs_status pnpbs_domain_set_corner_angle(pnpbs_domain domain, double corner_an
 }
 
 pnpbs_status pnpbs_domain_set_snap(pnpbs_domain domain, double length) {
-  return change_plane(domain, [&](PlaneDomain& plane) { plane.set_snap(length); });
+  return change_domain(domain, [&](DomainObject& object) {
+    visit_dimension(object, [&](auto& changed) { changed.set_snap(length); });
+  });
 }
 
 pnpbs_status pnpbs_domain_simplify(pnpbs_domain domain, pnpbs_spacing_fn spacing, void* user,

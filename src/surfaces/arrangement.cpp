@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -39,13 +40,9 @@ namespace {
 using Corners = std::array<std::int32_t, 3>;
 using Segment = std::array<std::int32_t, 2>;
 
-// Most times that triangles are split. Mostly one time suffices. Where surfaces lie on each other
+// Most rounds in which triangles are split. Mostly one suffices. Where surfaces lie on each other
 // up to rounding, the pieces can cross again in shorter edges.
 constexpr int kMostRounds = 40;
-
-// Distance within which a vertex lies on an edge or a triangle. [tolerance of vertices] Vertices on
-// one triangle then have different projections to its plane.
-constexpr double kOnTriangle = 0.0625;
 
 // Smallest tolerance for coordinates with few digits: far from the origin, or of single precision.
 // [unit of the last digit] Vertices then lie on a triangle within four units of the last digit.
@@ -54,12 +51,6 @@ constexpr double kLastDigits = 64;
 Corners sorted(Corners vertices) {
   std::sort(vertices.begin(), vertices.end());
   return vertices;
-}
-
-// Returns whether two triangles with the same vertices have the same orientation.
-bool same_turn(const Corners& a, const Corners& b) {
-  const auto at = std::find(b.begin(), b.end(), a[0]) - b.begin();
-  return b[static_cast<std::size_t>(at + 1) % 3] == a[1];
 }
 
 void turn_around(Corners& vertices) { std::swap(vertices[1], vertices[2]); }
@@ -121,7 +112,7 @@ FacetCorners<3> corners_of(const std::vector<Point<3>>& positions, const Corners
           positions[index(vertices[2])]};
 }
 
-// Makes pieces with the same vertices one.
+// Unites pieces with the same vertices: the first stays and gets the parents of all.
 void unite_equal(std::vector<Piece>& pieces, ParentSets& parents) {
   std::vector<std::pair<Corners, std::size_t>> order(pieces.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) order[p] = {sorted(pieces[p].vertices), p};
@@ -149,10 +140,11 @@ void unite_equal(std::vector<Piece>& pieces, ParentSets& parents) {
 
 using MeetingPair = std::array<std::int32_t, 2>;  // the lower index first
 
-// Contacts of pieces other than in common vertices and edges, in order.
+// Contacts other than in common vertices and edges, in order.
 struct Meetings {
-  NearContacts near;  // up to rounding
-  std::vector<MeetingPair> exact;
+  NearContacts near;                 // up to rounding
+  std::vector<MeetingPair> exact;    // of pieces
+  std::vector<MeetingPair> through;  // a segment of a curve and a piece that it goes through
 };
 
 template <class Item>
@@ -161,9 +153,37 @@ void sort_unique(std::vector<Item>& items) {
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-// Finds where new pieces meet others.
+// Finds where segments of curves meet pieces and each other. `tree` has the boxes of the pieces.
+void find_meetings_of_curves(const std::vector<Point<3>>& positions,
+                             const std::vector<Piece>& pieces, const BoxTree<3>& tree,
+                             const std::vector<ArrangedSegment>& curves, double reach,
+                             NearContactSearch& search, std::vector<MeetingPair>& through) {
+  std::vector<Box<3>> boxes;
+  for (const ArrangedSegment& segment : curves) {
+    Box<3> box = empty_box<3>();
+    for (const std::int32_t v : segment.ends) include(box, positions[index(v)]);
+    boxes.push_back(widened(box, reach / 2));
+  }
+  const BoxTree<3> tree_of_curves(boxes);
+  for (std::int32_t s = 0; s < static_cast<std::int32_t>(curves.size()); ++s) {
+    const auto& [a, b] = curves[index(s)].ends;
+    const Segment ends = edge_between(a, b);
+    tree.for_meeting(boxes[index(s)], [&](std::int32_t p) {
+      const Corners& corners = pieces[index(p)].vertices;
+      if (search.add_contacts(p, corners, ends) &&
+          segment_meets(positions[index(a)], positions[index(b)], corners_of(positions, corners)))
+        through.push_back({s, p});
+    });
+    tree_of_curves.for_meeting(boxes[index(s)], [&](std::int32_t t) {
+      const auto& other = curves[index(t)].ends;
+      if (t > s) search.add_contacts(ends, edge_between(other[0], other[1]));
+    });
+  }
+}
+
+// Finds where new pieces meet others, and where curves meet any piece.
 Meetings find_meetings(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces,
-                       double reach) {
+                       const std::vector<ArrangedSegment>& curves, double reach) {
   std::vector<Box<3>> boxes;
   boxes.reserve(pieces.size());
   for (const Piece& piece : pieces) {
@@ -188,12 +208,14 @@ Meetings find_meetings(const std::vector<Point<3>>& positions, const std::vector
         meetings.exact.push_back({std::min(p, q), std::max(p, q)});
     });
   }
+  find_meetings_of_curves(positions, pieces, tree, curves, reach, search, meetings.through);
   meetings.near = std::move(search.contacts());
   sort_unique(meetings.near.in_plane);
   sort_unique(meetings.near.on_edges);
   sort_unique(meetings.near.crossings);
   sort_unique(meetings.near.on_triangles);
   sort_unique(meetings.exact);
+  sort_unique(meetings.through);
   return meetings;
 }
 
@@ -210,12 +232,23 @@ class Splitting {
         in_plane_(pieces.size()),
         split_(pieces.size(), 0) {}
 
-  // Splits where pairs of pieces meet exactly.
-  void run(const std::vector<MeetingPair>& pairs) {
+  // Splits where pairs of pieces meet exactly, and where segments go through pieces.
+  void run(const std::vector<MeetingPair>& pairs, const std::vector<MeetingPair>& through,
+           const std::vector<ArrangedSegment>& curves) {
     for (const MeetingPair& pair : pairs)
       for (const std::int32_t p : pair)
-        for (const std::int32_t v : pieces_[index(p)].vertices) points_.use(v);
+        for (const std::int32_t v : vertices(p)) points_.use(v);
+    for (const auto& [s, p] : through) {
+      for (const std::int32_t v : vertices(p)) points_.use(v);
+      for (const std::int32_t v : curves[index(s)].ends) points_.use(v);
+    }
     for (const MeetingPair& pair : pairs) find_contact(pair[0], pair[1]);
+    for (const auto& [s, p] : through) {
+      const auto& [a, b] = curves[index(s)].ends;
+      const std::int32_t x = crossing(a, b, p);
+      cuts_.push_back({p, {x, x}});
+      on_curves_.emplace_back(s, x);
+    }
     split_planes();
   }
 
@@ -236,6 +269,30 @@ class Splitting {
     for (const Cut& cut : cuts_)
       for (const std::int32_t v : vertices(cut.piece)) points_.use(v);
     split_planes();
+  }
+
+  // Returns the parts of curves between the points that were found within them.
+  std::vector<ArrangedSegment> parts_of(const std::vector<ArrangedSegment>& curves) const {
+    std::vector<std::vector<std::int32_t>> within(curves.size());
+    for (const auto& [s, x] : on_curves_) within[index(s)].push_back(x);
+    std::vector<ArrangedSegment> parts;
+    for (std::size_t s = 0; s < curves.size(); ++s) {
+      const auto& [a, b] = curves[s].ends;
+      if (const auto* inside = within_edge(edge_between(a, b)))
+        within[s].insert(within[s].end(), inside->begin(), inside->end());
+      const Point<3> along = difference(position(b), position(a));
+      const auto from_a = [&](std::int32_t v) {
+        return std::pair(dot(difference(position(v), position(a)), along), v);
+      };
+      std::ranges::sort(within[s], {}, from_a);
+      std::int32_t last = a;
+      for (const std::int32_t v : within[s]) {
+        parts.push_back({{last, v}, curves[s].number});
+        last = v;
+      }
+      parts.push_back({{last, b}, curves[s].number});
+    }
+    return parts;
   }
 
   const ExactPoints& points() const { return points_; }
@@ -265,8 +322,7 @@ class Splitting {
   const Corners& vertices(std::int32_t p) const { return pieces_[index(p)].vertices; }
   const Point<3>& position(std::int32_t v) const { return points_.position(v); }
   Segment edge(std::int32_t p, std::size_t i) const {
-    const std::int32_t a = vertices(p)[i], b = vertices(p)[(i + 1) % 3];
-    return {std::min(a, b), std::max(a, b)};
+    return edge_between(vertices(p)[i], vertices(p)[(i + 1) % 3]);
   }
   // Returns the vertices within an edge, or null if there are none.
   const std::vector<std::int32_t>* within_edge(const Segment& ends) const {
@@ -277,7 +333,7 @@ class Splitting {
   }
 
   // ------------------------------------------------------------ contacts
-  // Notes that two pieces lie in one plane and are to be split together.
+  // Stores that two pieces lie in one plane and are to be split together.
   void join(std::int32_t p, std::int32_t q) {
     in_plane_.join(p, q);
     grouped_.push_back(p);
@@ -478,6 +534,7 @@ class Splitting {
   std::vector<std::int32_t> grouped_;
   std::vector<Cut> cuts_;
   EdgeVertices within_edges_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> on_curves_;  // a segment and a point within it
   std::unordered_map<Corners, std::int32_t, KeyHash> crossings_;  // of an edge and a piece
   std::vector<char> split_;                                       // per piece
   std::vector<Piece> parts_;
@@ -509,54 +566,63 @@ double last_digit(const Triangulation& surface) {
                                 : std::numeric_limits<double>::epsilon());
 }
 
-// Stands for the given vertex of a new one.
+// The source and the number of vertices that were not given.
 constexpr Triangulation::GivenVertex kIntersection{-1, -1};
 
 class Arranger {
  public:
-  Arranger(Triangulation& surface, double tolerance)
+  Arranger(Triangulation& surface, const std::vector<ArrangedSegment>& curves,
+           const ArrangementRule& rule)
       : surface_(surface),
-        given_tolerance_(tolerance),
-        tolerance_(std::max(tolerance, kLastDigits * last_digit(surface))),
+        rule_(rule),
+        tolerance_(std::max(
+            {rule.tolerance, rule.gap / kContactReach, kLastDigits * last_digit(surface)})),
         positions_(surface.vertices),
-        parents_(surface.triangles.size()) {
+        parents_(surface.triangles.size()),
+        curves_(curves) {
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       pieces_.push_back({surface.triangles[t].vertices, static_cast<std::int32_t>(t), true, -1});
+    for (const ArrangedSegment& segment : curves)
+      if (segment.ends[0] == segment.ends[1]) points_given_.insert(segment.number);
   }
 
-  ArrangementSummary run(SplitAt split_at, std::vector<CoveredTriangle>& covered) {
+  ArrangementSummary run(std::vector<ArrangedSegment>& curves,
+                         std::vector<CoveredTriangle>& covered) {
     ArrangementSummary summary;
     summary.tolerance = tolerance_;
-    if (tolerance_ > given_tolerance_) {
+    if (tolerance_ > rule_.tolerance) {
       round(ExactPoints(positions_), pieces_);
     } else {
       unite_equal(pieces_, parents_);
     }
     std::vector<MeetingPair> remaining;  // pairs that meet exactly and were not split yet
     while (true) {
-      Meetings meetings = find_meetings(positions_, pieces_, kOnTriangle * tolerance_);
+      Meetings meetings = find_meetings(positions_, pieces_, curves_, kContactReach * tolerance_);
       meetings.exact.insert(meetings.exact.end(), remaining.begin(), remaining.end());
       sort_unique(meetings.exact);
       const bool near = meetings.near.count() > 0;
-      if (!near && meetings.exact.empty()) break;
-      if (split_at == SplitAt::contacts && !near) return {};
+      if (!near && meetings.exact.empty() && meetings.through.empty()) break;
+      if (rule_.split_at == SplitAt::contacts && !near) return {};
       if (summary.rounds == kMostRounds) reject(meetings);
       ++summary.rounds;
       EdgeVertices within = vertices_in_edges(meetings.near);
-      Splitting splitting(positions_, pieces_, kOnTriangle * tolerance_);
+      Splitting splitting(positions_, pieces_, kContactReach * tolerance_);
       if (near) {
         splitting.run(meetings.near, std::move(within));
       } else {
-        splitting.run(meetings.exact);
+        splitting.run(meetings.exact, meetings.through, curves_);
       }
+      curves_ = splitting.parts_of(curves_);
       std::vector<Piece> pieces = std::move(splitting).result();
       round(splitting.points(), pieces);
       remaining = near ? pairs_between_old(meetings.exact, pieces) : std::vector<MeetingPair>{};
       pieces_ = std::move(pieces);
     }
-    if (summary.rounds > 0 || tolerance_ > given_tolerance_ ||
-        pieces_.size() < surface_.triangles.size())
+    if (summary.rounds > 0 || tolerance_ > rule_.tolerance ||
+        pieces_.size() < surface_.triangles.size()) {
       write(summary, covered);
+      curves = curves_;
+    }
     return summary;
   }
 
@@ -627,8 +693,21 @@ class Arranger {
     const std::vector<std::int32_t> welded = weld_points(positions_, tolerance_);
     for (Piece& piece : pieces)
       for (std::int32_t& v : piece.vertices) v = welded[index(vertex[index(v)])];
+    for (ArrangedSegment& segment : curves_)
+      for (std::int32_t& v : segment.ends) v = welded[index(vertex[index(v)])];
+    unite_equal_segments();
     remove_thin(pieces);
     unite_equal(pieces, parents_);
+  }
+
+  // Keeps the first of several segments with the same ends. Removes segments that became points.
+  void unite_equal_segments() {
+    std::set<Segment> met;
+    std::erase_if(curves_, [&](const ArrangedSegment& segment) {
+      const auto& [a, b] = segment.ends;
+      if (a == b) return !points_given_.contains(segment.number);
+      return !met.insert(edge_between(a, b)).second;
+    });
   }
 
   void remove_thin(std::vector<Piece>& pieces) const {
@@ -636,11 +715,12 @@ class Arranger {
     Triangulation all{surface_.sources, {}, positions_, {}, {}};
     all.tag_names.resize(surface_.sources.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-      const SurfaceTriangle& parent = parent_of(pieces[p]);
+      const SurfaceTriangle& parent = surface_.triangles[index(parent_of(pieces[p]))];
       all.triangles.push_back(
           {pieces[p].vertices, static_cast<std::int32_t>(p), parent.source, parent.number, false});
     }
-    remove_thin_pieces(all, tolerance_);
+    if (const auto thin = remove_thin_pieces(all, tolerance_))
+      reject_near(all.corners(*thin), parent_of(pieces[index(all.triangles[index(*thin)].tag)]));
     std::vector<Piece> kept;
     for (const SurfaceTriangle& triangle : all.triangles) {
       Piece piece = pieces[index(triangle.tag)];
@@ -652,30 +732,54 @@ class Arranger {
   }
 
   // Returns the first given triangle that contains a piece.
-  const SurfaceTriangle& parent_of(const Piece& piece) const {
-    return surface_.triangles[index(parents_.members(piece.parents)[0] / 2)];
+  std::int32_t parent_of(const Piece& piece) const {
+    return parents_.members(piece.parents)[0] / 2;
+  }
+
+  // Rejects surfaces that are too close to each other to be split, at a piece of the given triangle
+  // `own` with these corners. Names the group of it and the group nearest to the piece.
+  [[noreturn]] void reject_near(const FacetCorners<3>& corners, std::int32_t own) const {
+    const SurfaceTriangle& parent = surface_.triangles[index(own)];
+    std::int32_t other = -1;
+    double distance_of_other = HUGE_VAL;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
+      const SurfaceTriangle& triangle = surface_.triangles[index(t)];
+      if (triangle.source == parent.source && triangle.tag == parent.tag) continue;
+      double farthest = 0;
+      for (const Point<3>& x : corners)
+        farthest = std::max(farthest, distance<3>(nearest_on(surface_.corners(t), x), x));
+      if (farthest >= distance_of_other) continue;
+      distance_of_other = farthest;
+      other = t;
+    }
+    const MessageText place = " at " + point_text(corners[0]);
+    const MessageText what =
+        other < 0 ? surface_.group_name(own) + " meets itself" + place
+                  : surface_.group_name(own) + " and " + surface_.group_name(other) + " are " +
+                        rounded_text(distance_of_other) + " from each other" + place;
+    throw BrokenSurface(what +
+                        ", too near to be split where they meet: pnpbs_domain_set_snap (in the "
+                        "command --snap) with a larger length makes them one");
   }
 
   [[noreturn]] void reject(const Meetings& meetings) const {
-    MessageText place;
+    std::size_t p = 0;
     if (!meetings.exact.empty()) {
-      const Piece &p = pieces_[index(meetings.exact[0][0])],
-                  &q = pieces_[index(meetings.exact[0][1])];
-      const Contact contact =
-          contact_of(corners_of(positions_, p.vertices), corners_of(positions_, q.vertices));
-      place = surface_.triangle_name(parents_.members(p.parents)[0] / 2) + " and " +
-              surface_.triangle_name(parents_.members(q.parents)[0] / 2) + " meet at " +
-              point_text(contact.place);
+      p = index(meetings.exact[0][0]);
+    } else if (!meetings.through.empty()) {
+      p = index(meetings.through[0][1]);
     } else {
-      const std::int32_t v = !meetings.near.on_edges.empty() ? meetings.near.on_edges[0].second
-                             : !meetings.near.crossings.empty()
-                                 ? meetings.near.crossings[0][0][0]
-                                 : meetings.near.on_triangles[0].second[0];
-      place = "triangles nearly meet at " + point_text(positions_[index(v)]);
+      const NearContacts& near = meetings.near;
+      const std::int32_t v = !near.on_edges.empty()    ? near.on_edges[0].second
+                             : !near.crossings.empty() ? near.crossings[0][0][0]
+                                                       : near.on_triangles[0].second[0];
+      const Point<3>& x = positions_[index(v)];
+      const auto distance_of = [&](const Piece& piece) {
+        return distance<3>(nearest_on(corners_of(positions_, piece.vertices), x), x);
+      };
+      p = index(std::ranges::min_element(pieces_, {}, distance_of) - pieces_.begin());
     }
-    throw BrokenSurface(place +
-                        " and cannot be split there because coordinates are rounded: move the "
-                        "surfaces apart, or give them common vertices there");
+    reject_near(corners_of(positions_, pieces_[p].vertices), parent_of(pieces_[p]));
   }
 
   // Writes the pieces as triangles in the order of the triangles that they come from.
@@ -719,23 +823,28 @@ class Arranger {
       }
     }
     surface_.triangles = std::move(triangles);
+    for (ArrangedSegment& segment : curves_)
+      for (std::int32_t& v : segment.ends) v = vertex(v);
     summary.split = std::count(unchanged.begin(), unchanged.end(), 0);
     summary.new_vertices = static_cast<std::int64_t>(surface_.vertices.size() - given);
     summary.covered = std::ssize(covered);
   }
 
   Triangulation& surface_;
-  double given_tolerance_, tolerance_;
+  const ArrangementRule& rule_;
+  double tolerance_;
   std::vector<Point<3>> positions_;  // of the given vertices and of new ones
   ParentSets parents_;
   std::vector<Piece> pieces_;
+  std::vector<ArrangedSegment> curves_;
+  std::set<std::int32_t> points_given_;  // numbers of the given segments that are points
 };
 
 }  // namespace
 
-ArrangementSummary arrange(Triangulation& surface, double tolerance, SplitAt split_at,
-                           std::vector<CoveredTriangle>& covered) {
-  return Arranger(surface, tolerance).run(split_at, covered);
+ArrangementSummary arrange(Triangulation& surface, std::vector<ArrangedSegment>& curves,
+                           const ArrangementRule& rule, std::vector<CoveredTriangle>& covered) {
+  return Arranger(surface, curves, rule).run(curves, covered);
 }
 
 }  // namespace pnpbs

@@ -88,7 +88,8 @@ std::int32_t ExactPoints::index_of(Homogeneous point, std::array<std::int32_t, 2
   return added;
 }
 
-// A function that is linear in homogeneous coordinates, with the values at_a and at_b, is 0 there.
+// Returns the point of the line through a and b at which a function is 0 that is linear in
+// homogeneous coordinates and has the values at_a and at_b at these points.
 ExactPoints::Homogeneous ExactPoints::combination(const WideInteger& at_a, std::int32_t a,
                                                   const WideInteger& at_b, std::int32_t b) const {
   const Homogeneous &p = exact(a), &q = exact(b);
@@ -152,7 +153,8 @@ int ExactPoints::orientation(int k, std::int32_t a, std::int32_t b, std::int32_t
   return sign != 0 ? sign : determinant(k, a, b, c).sign();
 }
 
-// Compares coordinates. Rounding to the nearest double keeps their order.
+// Compares a coordinate of two points. Rounding to the nearest double keeps the order of
+// coordinates, so that exact ones decide only where rounded ones are equal.
 int ExactPoints::compare(int axis, std::int32_t a, std::int32_t b) const {
   const auto k = static_cast<std::size_t>(axis);
   const double x = position(a)[k], y = position(b)[k];

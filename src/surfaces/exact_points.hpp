@@ -26,8 +26,8 @@ class ExactPoints {
   // Two of the given points may not coincide, except points that are never used.
   explicit ExactPoints(std::span<const Point<3>> given);
 
-  // Makes a given point known, so that a point constructed at its position gets its index. All
-  // points of which others are constructed must be known, and known before that.
+  // Makes a given point known, so that a point constructed at its position gets its index. A given
+  // point must be known before others are constructed from it.
   void use(std::int32_t p);
 
   std::int32_t given_count() const { return given_count_; }
@@ -75,7 +75,7 @@ class ExactPoints {
   std::vector<Point<3>> positions_;
   std::vector<std::int32_t> exact_index_;           // per point: its index in exact_, or -1
   std::deque<Homogeneous> exact_;                   // of the known points
-  std::vector<std::array<std::int32_t, 2>> edges_;  // per constructed point: a line through it
+  std::vector<std::array<std::int32_t, 2>> edges_;  // per constructed point: two given points
   std::vector<std::int32_t> next_;                  // the next point with the same rounded position
   std::unordered_map<Point<3>, std::int32_t, PositionHash> first_;  // known points by position
 };

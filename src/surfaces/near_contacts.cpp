@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kNormalRounding = 32 * std::numeric_limits<double>::epsilon();
 
-NearContacts::Edge edge_between(std::int32_t a, std::int32_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
-
 bool contains(const std::array<std::int32_t, 3>& corners, std::int32_t v) {
   return v == corners[0] || v == corners[1] || v == corners[2];
 }
@@ -36,8 +32,9 @@ double distance_within(double reach, const Point<3>& a, const Point<3>& b, const
 
 }  // namespace
 
-// Returns on which sides of the plane of q the vertices of p lie, farther from it than the reach,
-// or 0. The normal of a thin triangle has a large rounding error, which the margin covers.
+// Returns the side of the plane of q on which each vertex of p lies, 0 for vertices within the
+// reach of the plane. The normal of a thin triangle has a large rounding error, which the margin
+// covers.
 NearContactSearch::Sides NearContactSearch::sides_of(const Corners& p, const Corners& q) const {
   const Point<3>& origin = at(q[0]);
   const Point<3> u = difference(at(q[1]), origin), v = difference(at(q[2]), origin);
@@ -106,6 +103,12 @@ NearContactSearch::Location NearContactSearch::locate(std::int32_t v,
   return distance<3>(nearest_on(corners, x), x) <= reach_ ? Location{inside, 0} : Location{};
 }
 
+// Returns whether a vertex lies on the edge from corner k of a triangle to the next.
+bool NearContactSearch::on_edge(const Location& x, int k) {
+  using enum Location::Kind;
+  return (x.kind == edge && x.k == k) || (x.kind == corner && (x.k == k || x.k == (k + 1) % 3));
+}
+
 // Adds the vertices and edges of q on p.
 void NearContactSearch::add_on(std::int32_t p, const Corners& corners_p, const Corners& corners_q,
                                const Sides& sides_q) {
@@ -122,9 +125,6 @@ void NearContactSearch::add_on(std::int32_t p, const Corners& corners_p, const C
                                       v);
     if (kind == inside) contacts_.on_triangles.push_back({p, {v, v}});
   }
-  const auto on_edge = [](const Location& x, int k) {
-    return (x.kind == edge && x.k == k) || (x.kind == corner && (x.k == k || x.k == (k + 1) % 3));
-  };
   for (std::size_t i = 0; i < 3; ++i) {
     const Location &a = locations[i], &b = locations[(i + 1) % 3];
     if (a.kind == off || b.kind == off) continue;
@@ -151,26 +151,31 @@ bool NearContactSearch::are_apart(const Edge& e, const Edge& f) const {
   return height > rounding + reach_ * (length(normal) + kNormalRounding * length(u) * length(v));
 }
 
-// Adds the edges of p and q that cross each other. An edge on one side of the other triangle does
-// not.
+// Adds the edges of p and q that cross each other. An edge whose ends lie on the same side of the
+// other triangle crosses none.
 void NearContactSearch::add_crossings(const Corners& p, const Sides& sides_p, const Corners& q,
                                       const Sides& sides_q) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (sides_p.same(i)) continue;
     for (std::size_t j = 0; j < 3; ++j) {
       if (sides_q.same(j)) continue;
-      const Edge e = edge_between(p[i], p[(i + 1) % 3]), f = edge_between(q[j], q[(j + 1) % 3]);
-      if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) continue;
-      if (are_apart(e, f)) continue;
-      const SegmentEnds s{at(e[0]), at(e[1])}, t{at(f[0]), at(f[1])};
-      const auto near = [&](const SegmentEnds& segment, const Point<3>& x) {
-        return distance_within(reach_, segment[0], segment[1], x) <= reach_;
-      };
-      if (near(s, t[0]) || near(s, t[1]) || near(t, s[0]) || near(t, s[1])) continue;
-      if (!near(t, nearest_to_segment(s, t))) continue;
-      contacts_.crossings.push_back(e < f ? std::array{e, f} : std::array{f, e});
+      add_crossing(edge_between(p[i], p[(i + 1) % 3]), edge_between(q[j], q[(j + 1) % 3]));
     }
   }
+}
+
+bool NearContactSearch::is_near(const Edge& segment, std::int32_t v) const {
+  return distance_within(reach_, at(segment[0]), at(segment[1]), at(v)) <= reach_;
+}
+
+// Adds two edges if they cross each other and no end lies on the other one.
+void NearContactSearch::add_crossing(const Edge& e, const Edge& f) {
+  if (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]) return;
+  if (are_apart(e, f)) return;
+  if (is_near(e, f[0]) || is_near(e, f[1]) || is_near(f, e[0]) || is_near(f, e[1])) return;
+  const SegmentEnds s{at(e[0]), at(e[1])}, t{at(f[0]), at(f[1])};
+  if (distance_within(reach_, t[0], t[1], nearest_to_segment(s, t)) > reach_) return;
+  contacts_.crossings.push_back(e < f ? std::array{e, f} : std::array{f, e});
 }
 
 bool NearContactSearch::add_contacts(std::int32_t p, const Corners& corners_p, std::int32_t q,
@@ -186,6 +191,52 @@ bool NearContactSearch::add_contacts(std::int32_t p, const Corners& corners_p, s
   if (contacts_.count() > before && (sides_p.in_plane() || sides_q.in_plane()))
     contacts_.in_plane.push_back({p, q});
   return true;
+}
+
+bool NearContactSearch::add_contacts(std::int32_t p, const Corners& corners_p,
+                                     const Edge& segment) {
+  using enum Location::Kind;
+  const bool is_point = segment[0] == segment[1];
+  // The point that repeats an end makes the segment a triangle.
+  const Sides sides = sides_of({segment[0], segment[1], segment[1]}, corners_p);
+  if (sides.apart) return false;
+  if (contains(corners_p, segment[0]) && contains(corners_p, segment[1])) return false;
+  std::array<Location, 2> locations;
+  for (std::size_t i = 0; i < (is_point ? 1 : 2); ++i) {
+    if (sides.of[i] != 0) continue;
+    locations[i] = locate(segment[i], corners_p);
+    const auto& [kind, k] = locations[i];
+    const auto start = static_cast<std::size_t>(k);
+    if (kind == edge)
+      contacts_.on_edges.emplace_back(edge_between(corners_p[start], corners_p[(start + 1) % 3]),
+                                      segment[i]);
+    if (kind == inside) contacts_.on_triangles.push_back({p, {segment[i], segment[i]}});
+  }
+  if (is_point) return false;
+  for (const std::int32_t v : corners_p)
+    if (v != segment[0] && v != segment[1] && is_near(segment, v))
+      contacts_.on_edges.emplace_back(segment, v);
+  for (std::size_t i = 0; i < 3; ++i)
+    add_crossing(edge_between(corners_p[i], corners_p[(i + 1) % 3]), segment);
+  const auto& [a, b] = locations;
+  const bool along_one_edge = [&] {
+    for (int k = 0; k < 3; ++k)
+      if (on_edge(a, k) && on_edge(b, k)) return true;
+    return false;
+  }();
+  if (a.kind != off && b.kind != off && !along_one_edge)
+    contacts_.on_triangles.push_back({p, segment});
+  return a.kind == off && b.kind == off;
+}
+
+void NearContactSearch::add_contacts(const Edge& s, const Edge& t) {
+  for (const auto& [segment, other] : {std::pair{s, t}, std::pair{t, s}}) {
+    if (segment[0] == segment[1]) continue;
+    for (const std::int32_t v : other)
+      if (v != segment[0] && v != segment[1] && is_near(segment, v))
+        contacts_.on_edges.emplace_back(segment, v);
+  }
+  if (s[0] != s[1] && t[0] != t[1]) add_crossing(s, t);
 }
 
 }  // namespace pnpbs

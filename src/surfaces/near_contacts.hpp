@@ -2,6 +2,7 @@
 // Finds vertices and edges of triangles that lie on other triangles up to rounding.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -11,6 +12,11 @@
 #include "base/types.hpp"
 
 namespace pnpbs {
+
+// Returns an edge with the lower vertex first.
+inline std::array<std::int32_t, 2> edge_between(std::int32_t a, std::int32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
 
 // Contacts within a distance of each other, other than common vertices and edges. Edges have the
 // lower vertex first. Contacts may occur several times.
@@ -40,6 +46,11 @@ class NearContactSearch {
   // exact, beside their common vertices and edges.
   bool add_contacts(std::int32_t p, const Corners& corners_p, std::int32_t q,
                     const Corners& corners_q);
+  // Adds the contacts of a triangle and a segment of a curve, or a point if its ends are equal.
+  // Returns false if they have no other point in common than a common vertex or edge.
+  bool add_contacts(std::int32_t p, const Corners& corners_p, const Edge& segment);
+  // Adds the contacts of two segments of curves.
+  void add_contacts(const Edge& s, const Edge& t);
 
   NearContacts& contacts() { return contacts_; }
 
@@ -61,8 +72,11 @@ class NearContactSearch {
 
   const Point<3>& at(std::int32_t v) const { return positions_[static_cast<std::size_t>(v)]; }
   Sides sides_of(const Corners& p, const Corners& q) const;
+  bool is_near(const Edge& segment, std::int32_t v) const;
+  void add_crossing(const Edge& e, const Edge& f);
   bool lie_beside(const Corners& p, const Corners& q) const;
   Location locate(std::int32_t v, const Corners& triangle) const;
+  static bool on_edge(const Location& x, int k);
   void add_on(std::int32_t p, const Corners& corners_p, const Corners& corners_q,
               const Sides& sides_q);
   bool are_apart(const Edge& e, const Edge& f) const;

@@ -87,10 +87,7 @@ SurfaceRegions::SurfaceRegions(const Triangulation& surface, const SurfaceEdges&
 }
 
 void SurfaceRegions::find_components(const SurfaceEdges& edges) {
-  UnionFind<std::int32_t> connected(surface_.triangles.size());
-  for (std::size_t e = 0; e < edges.count(); ++e)
-    for (const EdgeSide& side : edges.sides(e))
-      connected.join(edges.sides(e)[0].triangle, side.triangle);
+  UnionFind<std::int32_t> connected = connected_triangles(surface_, edges);
   component_ = numbered(connected, surface_.triangles.size(), components_);
   first_triangle_.assign(components_, -1);
   for (std::size_t t = 0; t < component_.size(); ++t)

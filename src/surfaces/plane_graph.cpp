@@ -32,7 +32,7 @@ class SegmentSplitter {
 
   PlaneGraph run() {
     find_meeting();
-    // The points within each segment follow each other.
+    // After sorting, the points within each segment are consecutive.
     std::sort(within_.begin(), within_.end());
     within_.erase(std::unique(within_.begin(), within_.end()), within_.end());
     PlaneGraph graph;

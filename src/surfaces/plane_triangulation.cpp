@@ -82,13 +82,14 @@ class PlaneTriangulation {
     for (std::int32_t p = first + 1; p < count; ++p) extend_hull(p);
   }
 
+  // Makes b the next vertex after a on the hull. `half_edge` is that of the triangle there.
   void chain(std::int32_t a, std::int32_t b, std::int32_t half_edge) {
     after_[index(a)] = b;
     before_[index(b)] = a;
     hull_edge_[index(a)] = half_edge;
   }
 
-  // Joins the points on a line before `apex` with it.
+  // Adds the triangles between `apex` and the points before it, which lie on a line.
   void begin_fan(std::int32_t apex) {
     const bool left = orientation(0, 1, apex) > 0;
     std::int32_t between = -1;  // the half-edge from the line to the apex, or back
@@ -112,8 +113,8 @@ class PlaneTriangulation {
     }
   }
 
-  // Joins a point with the edges of the hull that are visible from it. The point before it is an
-  // end of one of them.
+  // Adds the triangles between a point and the edges of the hull that are visible from it. The
+  // point before it is an end of one of these edges.
   void extend_hull(std::int32_t p) {
     std::int32_t high = p - 1, low = p - 1, to_high = -1, to_low = -1;
     for (std::int32_t v = after_[index(high)]; orientation(high, v, p) < 0;

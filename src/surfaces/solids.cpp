@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "base/union_find.hpp"
+#include "geometry/region_graph.hpp"
 #include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
@@ -34,11 +35,9 @@ bool is_closed(const SurfaceEdges& edges) {
 }
 
 // Returns for each triangle whether its component, connected by edges, is closed.
-std::vector<char> in_closed_component(const Triangulation& part, const SurfaceEdges& edges) {
-  UnionFind<std::int32_t> components(part.triangles.size());
-  for (std::size_t e = 0; e < edges.count(); ++e)
-    for (const EdgeSide& side : edges.sides(e))
-      components.join(edges.sides(e)[0].triangle, side.triangle);
+std::vector<char> in_closed_component(const Triangulation& part) {
+  const SurfaceEdges edges(part);
+  UnionFind<std::int32_t> components = connected_triangles(part, edges);
   std::vector<char> closed(part.triangles.size(), 1);
   for (std::size_t e = 0; e < edges.count(); ++e)
     if (!is_closed_at(edges, e)) closed[index(components.root(edges.sides(e)[0].triangle))] = 0;
@@ -52,11 +51,6 @@ std::string group_name_of(const Triangulation& given, const SurfaceTriangle& tri
   for (const auto& [tag, name] : given.tag_names[index(triangle.source)])
     if (tag == triangle.tag) return name;
   return "";
-}
-
-bool same_turn(const SurfaceTriangle& a, const SurfaceTriangle& b) {
-  const auto at = std::find(b.vertices.begin(), b.vertices.end(), a.vertices[0]);
-  return b.vertices[static_cast<std::size_t>(at - b.vertices.begin() + 1) % 3] == a.vertices[1];
 }
 
 }  // namespace
@@ -77,34 +71,36 @@ Solids::Solids(const Triangulation& given) {
     if (met.emplace(triangle.source, triangle.tag, corners).second)
       of_source[index(triangle.source)].push_back(static_cast<std::int32_t>(t));
   }
-  for (const std::vector<std::int32_t>& triangles : of_source) {
-    std::map<std::int32_t, std::vector<std::int32_t>> groups;
-    for (const std::int32_t t : triangles) groups[given.triangles[index(t)].tag].push_back(t);
-    std::vector<std::int32_t> others;
-    for (const auto& [tag, group] : groups) {
-      if (groups.size() == 1 || !is_closed(SurfaceEdges(part_of(given, group)))) {
-        others.insert(others.end(), group.begin(), group.end());
-        continue;
-      }
-      const SurfaceTriangle& first = given.triangles[index(group[0])];
-      const std::string& source = given.sources[index(first.source)];
-      const std::string name = group_name_of(given, first);
-      add_solid(given, group, Kind::wound_around,
-                name.empty() ? source + ", tag " + std::to_string(tag) : source + " '" + name + "'",
-                name);
+  for (const std::vector<std::int32_t>& triangles : of_source) add_source(given, triangles);
+}
+
+// Adds the solids of one source, whose triangles these are.
+void Solids::add_source(const Triangulation& given, const std::vector<std::int32_t>& triangles) {
+  std::map<std::int32_t, std::vector<std::int32_t>> groups;
+  for (const std::int32_t t : triangles) groups[given.triangles[index(t)].tag].push_back(t);
+  std::vector<std::int32_t> others;
+  for (const auto& [tag, group] : groups) {
+    if (groups.size() == 1 || !is_closed(SurfaceEdges(part_of(given, group)))) {
+      others.insert(others.end(), group.begin(), group.end());
+      continue;
     }
-    std::sort(others.begin(), others.end());
-    const Triangulation rest = part_of(given, others);
-    const std::vector<char> closed = in_closed_component(rest, SurfaceEdges(rest));
-    for (const Kind kind : {Kind::wound_around, Kind::enclosing}) {
-      std::vector<std::int32_t> chosen;
-      for (std::size_t k = 0; k < others.size(); ++k)
-        if ((closed[k] != 0) == (kind == Kind::wound_around)) chosen.push_back(others[k]);
-      if (chosen.empty()) continue;
-      const SurfaceTriangle& first = given.triangles[index(chosen[0])];
-      add_solid(given, chosen, kind, given.sources[index(first.source)],
-                groups.size() == 1 ? group_name_of(given, first) : "");
-    }
+    const SurfaceTriangle& first = given.triangles[index(group[0])];
+    const std::string& source = given.sources[index(first.source)];
+    const std::string name = group_name_of(given, first);
+    add_solid(given, group, Kind::wound_around,
+              name.empty() ? source + ", tag " + std::to_string(tag) : source + " '" + name + "'",
+              name);
+  }
+  std::sort(others.begin(), others.end());
+  const std::vector<char> closed = in_closed_component(part_of(given, others));
+  for (const Kind kind : {Kind::wound_around, Kind::enclosing}) {
+    std::vector<std::int32_t> chosen;
+    for (std::size_t k = 0; k < others.size(); ++k)
+      if ((closed[k] != 0) == (kind == Kind::wound_around)) chosen.push_back(others[k]);
+    if (chosen.empty()) continue;
+    const SurfaceTriangle& first = given.triangles[index(chosen[0])];
+    add_solid(given, chosen, kind, given.sources[index(first.source)],
+              groups.size() == 1 ? group_name_of(given, first) : "");
   }
 }
 
@@ -122,8 +118,8 @@ void Solids::add_solid(const Triangulation& given, const std::vector<std::int32_
   }
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     const SurfaceTriangle& triangle = given.triangles[index(triangles[k])];
-    of_[index(triangle.source)][index(triangle.number)] = {solid,
-                                                           !same_turn(part.triangles[k], triangle)};
+    of_[index(triangle.source)][index(triangle.number)] = {
+        solid, !same_turn(part.triangles[k].vertices, triangle.vertices)};
   }
 }
 
@@ -140,82 +136,68 @@ void add_winding(Windings& windings, std::int32_t solid, std::int32_t by) {
   if (winding == 0) windings.erase(solid);
 }
 
-// The way from the region in front of a triangle to the one behind it.
-struct Passage {
-  std::int32_t front, back;
+}  // namespace
+
+// The change of what contains a point that goes through a triangle, from its front to its back.
+struct Solids::Passage {
   Windings gained;                  // by solids that wind around their inside
   std::vector<std::int32_t> walls;  // solids that enclose their inside
 };
 
-}  // namespace
+std::vector<Solids::Passage> Solids::passages_through(
+    const Triangulation& pieces, const std::vector<CoveredTriangle>& parts) const {
+  std::vector<Passage> passages(pieces.triangles.size());
+  for (const auto& [t, part] : parts) {
+    const auto& [solid, given_turned] = membership(part);
+    if (solid < 0) continue;
+    Passage& passage = passages[index(t)];
+    if (kinds_[index(solid)] == Kind::enclosing) {
+      passage.walls.push_back(solid);
+      continue;
+    }
+    const bool turned =
+        same_turn(part.vertices, pieces.triangles[index(t)].vertices) == given_turned;
+    add_winding(passage.gained, solid, turned ? -1 : 1);
+  }
+  return passages;
+}
 
 std::vector<std::vector<std::int32_t>> Solids::around(const Triangulation& pieces,
                                                       const std::vector<CoveredTriangle>& parts,
                                                       const SurfaceRegions& regions) const {
-  std::vector<Passage> passages(pieces.triangles.size());
-  for (std::size_t t = 0; t < passages.size(); ++t) {
-    passages[t].front = regions.front(static_cast<std::int32_t>(t));
-    passages[t].back = regions.back(static_cast<std::int32_t>(t));
-  }
-  for (const auto& [t, part] : parts) {
-    const auto& [solid, given_turned] = membership(part);
-    if (solid < 0) continue;
-    if (kinds_[index(solid)] == Kind::enclosing) {
-      passages[index(t)].walls.push_back(solid);
-      continue;
-    }
-    const bool turned = same_turn(part, pieces.triangles[index(t)]) == given_turned;
-    add_winding(passages[index(t)].gained, solid, turned ? -1 : 1);
-  }
-  std::erase_if(passages, [](const Passage& passage) { return passage.front == passage.back; });
+  const std::vector<Passage> passages = passages_through(pieces, parts);
+  std::vector<std::array<std::int32_t, 2>> sides;  // the regions in front and behind
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(passages.size()); ++t)
+    sides.push_back({regions.front(t), regions.back(t)});
+  const RegionGraph graph(index(regions.count()), sides);
 
-  std::vector<std::vector<std::size_t>> leaving(index(regions.count()));
-  for (std::size_t p = 0; p < passages.size(); ++p) {
-    leaving[index(passages[p].front)].push_back(p);
-    leaving[index(passages[p].back)].push_back(p);
-  }
-  // Returns flags of the regions reached from the unbounded one. A region is reached through a
-  // passage from another one, if enter(other, passage, region) is true.
-  const auto search = [&](const auto& enter) {
-    std::vector<char> reached(leaving.size(), 0);
-    std::vector<std::int32_t> front{0};
-    reached[0] = 1;
-    for (std::size_t k = 0; k < front.size(); ++k)
-      for (const std::size_t p : leaving[index(front[k])]) {
-        const std::int32_t next =
-            passages[p].front == front[k] ? passages[p].back : passages[p].front;
-        if (reached[index(next)] != 0 || !enter(front[k], passages[p], next)) continue;
-        reached[index(next)] = 1;
-        front.push_back(next);
-      }
-    return reached;
-  };
-
-  std::vector<Windings> windings(leaving.size());
-  search([&](std::int32_t from, const Passage& passage, std::int32_t next) {
+  std::vector<Windings> windings(index(regions.count()));
+  graph.reached([&](std::int32_t from, std::size_t t, std::int32_t next) {
     windings[index(next)] = windings[index(from)];
-    for (const auto& [solid, gain] : passage.gained)
-      add_winding(windings[index(next)], solid, next == passage.back ? gain : -gain);
+    for (const auto& [solid, gain] : passages[t].gained)
+      add_winding(windings[index(next)], solid, next == sides[t][1] ? gain : -gain);
     return true;
   });
-  for (const Passage& passage : passages) {
-    Windings difference = windings[index(passage.front)];
-    for (const auto& [solid, gain] : passage.gained) add_winding(difference, solid, gain);
-    for (const auto& [solid, winding] : windings[index(passage.back)])
+  for (std::size_t t = 0; t < passages.size(); ++t) {
+    const auto& [front, back] = sides[t];
+    if (front == back) continue;
+    Windings difference = windings[index(front)];
+    for (const auto& [solid, gain] : passages[t].gained) add_winding(difference, solid, gain);
+    for (const auto& [solid, winding] : windings[index(back)])
       add_winding(difference, solid, -winding);
     if (!difference.empty())
       throw BrokenSurface("the triangles of " + name(difference.begin()->first) +
                           " do not separate its inside from its outside");
   }
-  std::vector<std::vector<std::int32_t>> around(leaving.size());
+
+  std::vector<std::vector<std::int32_t>> around(windings.size());
   for (std::size_t region = 0; region < around.size(); ++region)
     for (const auto& [solid, winding] : windings[region]) around[region].push_back(solid);
   for (std::int32_t solid = 0; solid < count(); ++solid) {
     if (kinds_[index(solid)] != Kind::enclosing) continue;
-    const std::vector<char> outside =
-        search([&](std::int32_t, const Passage& passage, std::int32_t) {
-          return std::ranges::find(passage.walls, solid) == passage.walls.end();
-        });
+    const std::vector<char> outside = graph.reached([&](std::int32_t, std::size_t t, std::int32_t) {
+      return std::ranges::find(passages[t].walls, solid) == passages[t].walls.end();
+    });
     for (std::size_t region = 0; region < around.size(); ++region)
       if (outside[region] == 0) around[region].push_back(solid);
   }

@@ -15,7 +15,7 @@
 
 namespace pnpbs {
 
-// Which tag the elements of a region get that lies in several solids.
+// The tag of the elements in a region that lies in several solids.
 enum class OverlapRule {
   last,   // that of the solid given last
   first,  // that of the solid given first
@@ -53,7 +53,10 @@ class Solids {
                                                 const SurfaceRegions& regions) const;
 
  private:
-  enum class Kind : char { wound_around, enclosing };
+  enum class Kind : char {
+    wound_around,  // contains the points around which its triangles wind
+    enclosing      // contains what its triangles separate from the outside
+  };
 
   // The solid of a triangle, and whether its orientation is the opposite of the neighbours'.
   struct Membership {
@@ -61,6 +64,11 @@ class Solids {
     bool turned = false;
   };
 
+  struct Passage;
+
+  void add_source(const Triangulation& given, const std::vector<std::int32_t>& triangles);
+  std::vector<Passage> passages_through(const Triangulation& pieces,
+                                        const std::vector<CoveredTriangle>& parts) const;
   void add_solid(const Triangulation& given, const std::vector<std::int32_t>& triangles, Kind kind,
                  std::string name, std::string group_name);
   const Membership& membership(const SurfaceTriangle& triangle) const {

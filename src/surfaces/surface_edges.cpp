@@ -38,6 +38,15 @@ SurfaceEdges::SurfaceEdges(const Triangulation& surface) {
   first_.push_back(sides_.size());
 }
 
+UnionFind<std::int32_t> connected_triangles(const Triangulation& surface,
+                                            const SurfaceEdges& edges) {
+  UnionFind<std::int32_t> connected(surface.triangles.size());
+  for (std::size_t e = 0; e < edges.count(); ++e)
+    for (const EdgeSide& side : edges.sides(e))
+      connected.join(edges.sides(e)[0].triangle, side.triangle);
+  return connected;
+}
+
 namespace {
 
 // The triangle across an edge, if there is exactly one, and whether it has the same orientation.

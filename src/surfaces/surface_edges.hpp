@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/union_find.hpp"
 #include "base/warning.hpp"
 #include "surfaces/triangulation.hpp"
 
@@ -45,6 +46,10 @@ class SurfaceEdges {
   std::vector<std::size_t> first_, first_inner_;
   std::vector<EdgeSide> sides_;
 };
+
+// Returns the sets of triangles that are connected by edges.
+UnionFind<std::int32_t> connected_triangles(const Triangulation& surface,
+                                            const SurfaceEdges& edges);
 
 // How orient_surfaces() treats one-sided surfaces such as Moebius strips.
 enum class OneSided { rejected, ignored };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -64,25 +65,29 @@ class Thinner {
   Thinner(Triangulation& surface, double tolerance, Thin thin)
       : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance), removes_(thin) {}
 
-  // Returns the number of removed triangles and the name of the first.
-  std::pair<std::int64_t, MessageText> run() {
+  // Returns a triangle that is still too thin if the triangles become too many.
+  std::optional<std::int32_t> run() {
     const std::size_t given = triangles_.size();
     for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
-    if (removed_ == 0 && thin_.empty()) return {};
+    if (removed_ == 0 && thin_.empty()) return std::nullopt;
     list_triangles_at_vertices();
     // The longest come first, because cutting a triangle along its long edge shortens its pieces.
     for (std::size_t cuts = 0; !thin_.empty(); ++cuts) {
       const std::int32_t t = std::get<1>(thin_.top());
       thin_.pop();
-      if (cuts > kMaxCuts * given) throw BrokenSurface(surface_.triangle_name(t) + " is too thin");
+      if (cuts > kMaxCuts * given) return t;
       if (!gone_[t]) cut_out(t);
     }
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       if (!gone_[t]) triangles_[kept++] = triangles_[t];
     triangles_.resize(kept);
-    return {removed_, first_name_};
+    return std::nullopt;
   }
+
+  std::int64_t removed() const { return removed_; }
+  // Returns the name and the location of the first removed triangle.
+  const MessageText& first_removed() const { return first_name_; }
 
  private:
   void look_at(std::int32_t t) {
@@ -151,17 +156,19 @@ class Thinner {
 
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings) {
-  const auto [count, first] = Thinner(surface, tolerance, Thin::flat_by_rounding).run();
+  Thinner thinner(surface, tolerance, Thin::flat_by_rounding);
+  if (const auto t = thinner.run()) throw BrokenSurface(surface.triangle_name(*t) + " is too thin");
+  const std::int64_t count = thinner.removed();
   if (count == 0) return;
   warnings.emplace_back(WarningCode::triangles_left_out,
                         std::to_string(count) + (count == 1 ? " triangle has" : " triangles have") +
                             " a negligible area and " + (count == 1 ? "is" : "are") +
-                            " left out; the first is " + first,
+                            " left out; the first is " + thinner.first_removed(),
                         count);
 }
 
-void remove_thin_pieces(Triangulation& surface, double tolerance) {
-  Thinner(surface, tolerance, Thin::within_tolerance).run();
+std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance) {
+  return Thinner(surface, tolerance, Thin::within_tolerance).run();
 }
 
 void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings) {

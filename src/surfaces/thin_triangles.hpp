@@ -2,6 +2,8 @@
 // Removes degenerate and duplicate triangles while surfaces stay closed.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,8 @@ void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings);
 
 // The same for pieces of triangles, without a warning. Flat pieces with a larger height stay.
-// Throws Error(ErrorKind::domain) if the pieces become too many.
-void remove_thin_pieces(Triangulation& surface, double tolerance);
+// Returns a triangle that is still too thin if the pieces become too many.
+std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance);
 
 // Removes all but the first of the triangles of one source that have the same corners, with a
 // warning. Throws Error(ErrorKind::domain) if they belong to two sources.

@@ -42,11 +42,14 @@ MessageText Triangulation::vertex_name(std::int32_t v) const {
 }
 
 std::string Triangulation::triangle_name(std::int32_t t) const {
+  return "triangle " + std::to_string(triangles[t].number) + " of " + group_name(t);
+}
+
+std::string Triangulation::group_name(std::int32_t t) const {
   const SurfaceTriangle& triangle = triangles[t];
   const TagNameList& names = tag_names[triangle.source];
   const auto name = std::ranges::find(names, triangle.tag, &TagNameList::value_type::first);
-  return "triangle " + std::to_string(triangle.number) + " of " + sources[triangle.source] +
-         (name == names.end() ? "" : " '" + name->second + "'");
+  return sources[triangle.source] + (name == names.end() ? "" : " '" + name->second + "'");
 }
 
 Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {

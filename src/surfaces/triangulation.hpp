@@ -75,6 +75,12 @@ struct SurfaceTriangle {
   }
 };
 
+// Returns whether two triangles with the same vertices have the same orientation.
+inline bool same_turn(const std::array<std::int32_t, 3>& a, const std::array<std::int32_t, 3>& b) {
+  const std::size_t k = b[0] == a[0] ? 0 : b[1] == a[0] ? 1 : 2;
+  return b[(k + 1) % 3] == a[1];
+}
+
 // Triangles of several sources, over common vertices.
 struct Triangulation {
   // The first vertex that was given at a position; -1 for intersections of triangles.
@@ -93,6 +99,7 @@ struct Triangulation {
 
   MessageText vertex_name(std::int32_t v) const;    // such as "vertex 5 of surface 0 (1, 2, 3)"
   std::string triangle_name(std::int32_t t) const;  // such as "triangle 5 of surface 0 'wing'"
+  std::string group_name(std::int32_t t) const;     // such as "surface 0 'wing'"
 };
 
 // Joins the triangles of all surfaces. Vertices are numbered consecutively and not yet welded.

@@ -58,6 +58,7 @@ Triangulation joined(const std::vector<SurfaceSource>& sources) {
 
 struct Arranged {
   Triangulation given, surface;
+  std::vector<pnpbs::ArrangedSegment> curves;
   std::vector<CoveredTriangle> covered;
   pnpbs::ArrangementSummary summary;
 };
@@ -135,10 +136,10 @@ void check_parts(const Arranged& it) {
   }
 }
 
-Arranged arranged(Triangulation given, SplitAt split_at = SplitAt::any_point) {
-  Arranged it{given, std::move(given), {}, {}};
-  it.summary =
-      pnpbs::arrange(it.surface, pnpbs::kSameVertex * size_of(it.given), split_at, it.covered);
+Arranged arranged(Triangulation given, SplitAt split_at = SplitAt::any_point, double gap = 0) {
+  Arranged it{given, std::move(given), {}, {}, {}};
+  it.summary = pnpbs::arrange(it.surface, it.curves,
+                              {pnpbs::kSameVertex * size_of(it.given), split_at, gap}, it.covered);
   return it;
 }
 
@@ -410,6 +411,96 @@ START_TEST(three_faces_lie_on_each_other) {
 }
 END_TEST
 
+// ---------------------------------------------------------------- curves
+// Checks that segments meet triangles and each other in common vertices or along whole edges only,
+// and that the parts of each segment have its length.
+static void check_curves(const Arranged& it, const std::vector<std::array<P, 2>>& given) {
+  std::vector<double> lengths(given.size(), 0);
+  const auto& positions = it.surface.vertices;
+  for (const auto& [ends, number] : it.curves) {
+    const P &a = positions[at(ends[0])], &b = positions[at(ends[1])];
+    if (at(number) < given.size()) lengths[at(number)] += pnpbs::distance<3>(a, b);
+    for (std::int32_t t = 0; t < number_of(it.surface.triangles.size()); ++t) {
+      const auto& triangle = it.surface.triangles[at(t)];
+      const P middle = pnpbs::halfway(a, b);
+      const bool has_both = triangle.has(ends[0]) && triangle.has(ends[1]);
+      if (!has_both && ends[0] != ends[1])
+        ck_assert_double_gt(height(it.surface.corners(t), middle), 1e-9);
+      for (const std::int32_t end : ends)
+        if (!triangle.has(end))
+          ck_assert_double_gt(height(it.surface.corners(t), positions[at(end)]), 1e-9);
+      if (!triangle.has(ends[0]) && !triangle.has(ends[1]))
+        ck_assert(!pnpbs::segment_meets(a, b, it.surface.corners(t)));
+    }
+  }
+  for (std::size_t s = 0; s < given.size(); ++s)
+    ck_assert_double_eq_tol(lengths[s], pnpbs::distance<3>(given[s][0], given[s][1]), 1e-8);
+}
+
+START_TEST(curves_and_points_are_split_with_surfaces) {
+  const std::vector<std::array<P, 2>> given{
+      {P{0.3, 0.4, -1}, P{0.6, 0.2, 2}},         // through the box and the sheet
+      {P{0.2, 0.8, 0.5}, P{2, 0.8, 0.5}},        // in the sheet, and out of the box
+      {P{0.5, 0.1, 0.5}, P{0.5, 0.9, 0.5}},      // in the sheet, across the one before
+      {P{0.5, 0.5, 0}, P{0.5, 0.5, 0.25}},       // from a diagonal of the floor
+      {P{0.25, 0.75, 0.1}, P{0.75, 0.75, 0.1}},  // crosses the next one
+      {P{0.5, 0.6, 0.1}, P{0.5, 0.9, 0.1}},
+      {P{0.1, 0, 0}, P{0.7, 0, 0}}};  // on an edge of the box
+  const std::vector<P> points{{0.25, 0.25, 0.5}, {1, 0.3, 0.6}, {0.5, 0.75, 0.1}};
+  for (const bool is_turned : {false, true}) {
+    const auto map = [is_turned](const P& x) { return is_turned ? turned(x) : x; };
+    std::vector<SurfaceSource> sources{
+        box({0, 0, 0}, {1, 1, 1}),
+        sheet({-0.5, -0.5, 0.5}, {1.5, -0.5, 0.5}, {1.5, 1.5, 0.5}, {-0.5, 1.5, 0.5})};
+    for (SurfaceSource& source : sources) source = moved(source, map);
+    Arranged it{joined(sources), {}, {}, {}, {}};
+    it.surface = it.given;
+    const auto add = [&](const P& x) {
+      it.surface.vertices.push_back(map(x));
+      return number_of(it.surface.vertices.size()) - 1;
+    };
+    for (const auto& [a, b] : given)
+      it.curves.push_back({{add(a), add(b)}, number_of(it.curves.size())});
+    for (const P& x : points) {
+      const std::int32_t v = add(x);
+      it.curves.push_back({{v, v}, number_of(it.curves.size())});
+    }
+    it.summary = pnpbs::arrange(it.surface, it.curves, {2e-9}, it.covered);
+    check_conforms(it.surface);
+    check_parts(it);
+    check_curves(it, given);
+    expect_volumes(it.surface, {0.5, 0.5});
+    std::map<std::int32_t, int> parts;
+    for (const auto& [ends, number] : it.curves) ++parts[number];
+    ck_assert(parts[0] == 4 && parts[3] == 1 && parts[4] == 2 && parts[5] == 2);
+    ck_assert(parts[1] >= 4 && parts[2] >= 2 && parts[6] >= 1);
+  }
+}
+END_TEST
+
+// ---------------------------------------------------------------- gaps
+START_TEST(gaps_and_overlaps_within_a_length_are_closed) {
+  for (const double off : {1e-6, -1e-6, 3e-8})
+    for (const bool is_turned : {false, true}) {
+      std::vector<SurfaceSource> sources{box({0, 0, 0}, {1, 1, 1}, 1),
+                                         box({0.25, -0.5, 1 + off}, {1.5, 0.75, 2}, 2)};
+      if (is_turned)
+        for (SurfaceSource& source : sources) source = moved(source, turned);
+      Arranged it = arranged(joined(sources), SplitAt::any_point, 2e-6);
+      check_conforms(it.surface);
+      check_parts(it);
+      expect_volumes(it.surface, {1, 1.5625}, 1e-5);
+      double shared = 0;
+      for (const CoveredTriangle& covered : it.covered)
+        shared += pnpbs::length(pnpbs::area_normal(it.surface.corners(covered.triangle)));
+      ck_assert_double_eq_tol(shared, 0.75 * 0.75, 1e-5);
+      it = arranged(joined(sources), SplitAt::any_point, 1e-8);
+      ck_assert_double_eq_tol(it.summary.tolerance, 1.6e-7, 1e-15);
+      ck_assert(it.covered.empty());
+    }
+}
+END_TEST
+
 // ---------------------------------------------------------------- sheets
 START_TEST(a_sheet_cuts_a_box) {
   const Arranged it = expect_bodies(
@@ -643,6 +734,8 @@ TEST_SUITE(test_arrangement) {
                                    a_smaller_box_stands_on_a_face,
                                    many_stacked_boxes_share_faces_and_edges,
                                    three_faces_lie_on_each_other,
+                                   curves_and_points_are_split_with_surfaces,
+                                   gaps_and_overlaps_within_a_length_are_closed,
                                    a_sheet_cuts_a_box,
                                    a_sheet_ends_on_the_sides_of_a_box,
                                    vertices_on_edges_need_no_new_ones,

@@ -9,7 +9,7 @@ import unittest
 import meshio
 import numpy
 
-from command import CommandTest
+from command import LEFT_OUT, CommandTest
 
 
 def box(low, high):
@@ -91,6 +91,123 @@ class Fragment(CommandTest):
                                (["--fragment", "--surfaces-only"], "exclude each other")):
             message = self.refuse("--domain", self.model, "--spacing", 0.12, *options)
             self.assertIn(words, message)
+
+    def test_gaps_within_a_length_are_closed(self):
+        model = self.folder / "gap.stl"
+        model.write_text(solid("lower", box((0, 0, 0), (1, 1, 1)))
+                         + solid("upper", box((0.25, -0.5, 1 + 1e-6), (1.5, 0.75, 2))))
+        self.run_command("--domain", model, "--fragment", "--snap", 2e-6, "--spacing", 0.15,
+                         "--output", "gap.vtu", "--report", "report.json", "--check")
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertIn("within 2e-06 of each other became one", str(report["warnings"]))
+        found = volumes_by_region(self.folder / "gap.vtu")
+        self.assertAlmostEqual(found[1], 1, 5)
+        self.assertAlmostEqual(found[2], 1.25 * 1.25, 5)
+        self.assertIn("with --fragment",
+                      self.refuse("--domain", model, "--spacing", 0.15, "--snap", 1e-6))
+
+
+# A square with two fractures that cross, a circle of segments across its side, and a line outside.
+PLANE = """14 2 0 0
+1 0 0
+2 4 0
+3 4 4
+4 0 4
+5 1 1
+6 3 3
+7 1 3
+8 3 1
+9 3.5 1.5
+10 5 1.5
+11 5 2.5
+12 3.5 2.5
+13 -1 0.5
+14 5 0.5
+11 1
+1 1 2 1
+2 2 3 1
+3 3 4 1
+4 4 1 1
+5 5 6 7
+6 7 8 7
+7 9 10 2
+8 10 11 2
+9 11 12 2
+10 12 9 2
+11 13 14 8
+0
+"""
+
+
+def areas_by_region(path):
+    """Returns the area of the triangles of each region of a .vtu file."""
+    mesh = meshio.read(path)
+    a, b, c = (mesh.points[mesh.cells_dict["triangle"][:, k], :2] for k in range(3))
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    regions = mesh.cell_data_dict["region"]["triangle"]
+    return {int(tag): areas[regions == tag].sum() for tag in numpy.unique(regions)}
+
+
+class PlaneFragment(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.model = self.folder / "model.poly"
+        self.model.write_text(PLANE)
+
+    def test_closed_groups_are_regions(self):
+        for rule, areas in (("last", {1: 15.5, 2: 1.5}), ("first", {1: 16, 2: 1}),
+                            ("own", {1: 15.5, 2: 1, 3: 0.5})):
+            self.run_command("--domain", self.model, "--fragment", rule, "--spacing", 0.2,
+                             "--output", "a.vtu", "--check")
+            found = areas_by_region(self.folder / "a.vtu")
+            self.assertEqual(sorted(found), sorted(areas), rule)
+            for tag, area in areas.items():
+                self.assertAlmostEqual(found[tag], area, 12, rule)
+
+    def test_nodes_lie_on_crossings_and_lines(self):
+        self.run_command("--domain", self.model, "--fragment", "--spacing", 0.2,
+                         "--output", "a.vtu")
+        points = meshio.read(self.folder / "a.vtu").points
+        for place in ((2, 2), (4, 1.5), (4, 2.5), (0, 0.5), (4, 0.5)):
+            self.assertLess(numpy.abs(points[:, :2] - place).max(axis=1).min(), 1e-12, place)
+
+    def test_polygons_and_lines_of_geojson(self):
+        def feature(kind, coordinates, **properties):
+            return {"type": "Feature", "properties": properties,
+                    "geometry": {"type": kind, "coordinates": coordinates}}
+
+        def ring(x, y, width):
+            return [[x, y], [x + width, y], [x + width, y + width], [x, y + width], [x, y]]
+
+        layer = self.folder / "layer.geojson"
+        features = [feature("Polygon", [ring(0, 0, 6), ring(4, 4, 1)[::-1]], unit=30),
+                    feature("Polygon", [ring(6, 0, 3)], unit=40),
+                    feature("LineString", [[-1, 1], [10, 1]]),
+                    feature("LineString", [[3, -1], [3, 7]])]
+        layer.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        options = ["--domain", layer, "--projection", "none", "--spacing", 0.4]
+        self.assertIn("--fragment", self.refuse(*options))
+        self.run_command(*options, "--fragment", "--output", "a.vtu", "--check", code=LEFT_OUT)
+        self.assertAlmostEqual(sum(areas_by_region(self.folder / "a.vtu").values()), 36 - 1 + 9, 9)
+        self.run_command(*options, "--fragment", "--region-field", "unit", "--output", "b.vtu",
+                         code=LEFT_OUT)
+        found = areas_by_region(self.folder / "b.vtu")
+        self.assertEqual(sorted(found), [30, 40])
+        self.assertAlmostEqual(found[30], 35, 9)
+
+    @unittest.skipUnless(os.environ.get("PNPBS_MPIEXEC"), "no MPI")
+    def test_nodes_are_the_same_on_any_ranks(self):
+        hashes = set()
+        for ranks in (1, 2, 3):
+            self.run_on_ranks("--domain", self.model, "--fragment", "own", "--spacing", 0.1,
+                              "--report", "report.json", ranks=ranks)
+            hashes.add(json.loads((self.folder / "report.json").read_text())["hash"])
+        self.assertEqual(len(hashes), 1)
+
+    def test_messages_name_the_option(self):
+        message = self.refuse("--domain", self.model, "--spacing", 0.2)
+        self.assertIn("cross at", message)
+        self.assertIn("--fragment", message)
 
 
 if __name__ == "__main__":

@@ -386,11 +386,14 @@ class Domain(Handle):
         return self._call("set_corner_angle", corner_angle)
 
     def set_snap(self, length: float) -> Domain:
-        """Sets the largest distance over which loose points of a domain in the plane are moved onto
-        a curve or vertex that they miss: ends of open curves, ends of segments that join no other
-        one, and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of
-        its bounding box. `check` moves them, with a warning; set it before. With 0, none are moved.
-        On a sphere none are moved."""
+        """In the plane, sets the largest distance over which loose points are moved onto a curve
+        or vertex that they miss: ends of open curves, ends of segments that join no other one,
+        and fixed nodes. By default it is 1e-7 of the size of the domain, the longest side of its
+        bounding box. `check` moves them, with a warning; set it before. With 0, none are moved.
+        On a sphere none are moved. In space, with `set_fragment`, surfaces become one where they
+        are no farther from each other, with the same warning: gaps between solids and thin
+        overlaps are closed. Vertices within 16 times the length are then merged, and what is
+        thinner is lost. By default no gaps are closed."""
         return self._call("set_snap", length)
 
     def simplify(self, d: Union[float, ArrayFunction], tolerance: float = 0.25,
@@ -475,23 +478,30 @@ class Domain(Handle):
         return self._call("set_resurfaced", float(resolution))
 
     def set_fragment(self, overlap: str = "last") -> Domain:
-        """Splits the surfaces of a domain in space where they cross, touch or lie on each other, so
-        that several solids and sheets become regions of one body with common nodes and facets.
+        """Splits the curves or surfaces of a domain where they cross, touch or lie on each other,
+        so that several solids, sheets and curves become regions of one domain with common nodes and
+        facets. The domain is what any solid contains. Curves and surfaces that enclose nothing lie
+        inside of it, and their parts outside are left out. The first of several curves or triangles
+        that lie on each other gives the tag. The k-th solid, counted from 1 in the order in which
+        they are added (groups by tag), gives its elements the region tag k. `add_region` sets other
+        tags, and `add_hole` removes regions.
 
-        Each box, ball, cylinder and level set is a solid, and so is each closed group of an added
-        surface, which are its triangles with one tag: a solid contains the points around which it
-        winds, so triangles of a cavity are oriented into it. The other triangles of a surface
-        enclose a further solid. The body is what any solid contains. Surfaces that enclose nothing
-        are inner surfaces, and parts of them outside of the body are left out. The first of
-        several triangles that lie on each other gives the tag. The k-th solid, counted from 1 in the order
-        in which they are added (the groups of a surface by tag), gives its elements the region tag
-        k. `add_region` sets other tags, and `add_hole` removes regions.
+        In space each box, ball, cylinder and level set is a solid, and so is each closed group of
+        an added surface, which are its triangles with one tag: a solid contains the points around
+        which it winds, so triangles of a cavity are oriented into it. The other triangles of a
+        surface enclose a further solid. Without this call, surfaces that touch are accepted if no
+        solids overlap and each surface ends on others, as for stacked boxes and for a sheet from
+        side to side of a box. Gaps up to the length of `set_snap` are closed.
 
-        Without this call, surfaces that touch are accepted if no solids overlap and each surface
-        ends on others, as for stacked boxes and for a sheet from side to side of a box. Excludes `set_repair`.
+        In the plane each closed boundary curve is a solid, and so are boundary curves that are
+        joined at their ends to a closed one. It is a cavity if the solid before it encloses it and
+        runs around in the other direction. Each closed group of a graph, which are its segments
+        with one tag, is a solid, and the rest of what the graph encloses is a further one. Without
+        this call, curves that touch, also along common edges, are accepted if no solids overlap.
+        Excludes `set_repair`. Not on a sphere.
 
-        - `overlap`: the region tag where solids overlap: "last" or "first", that of the solid
-          added last or first, or "own", one for each combination of solids, following those of the
+        - `overlap`: the region tag where solids overlap: "last" or "first", that of the solid added
+          last or first, or "own", one for each combination of solids, following those of the
           solids."""
         if overlap not in _interface.OVERLAPS:
             raise ValueError(f'overlap is {overlap!r}, expected "last", "first" or "own"')

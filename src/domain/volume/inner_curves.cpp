@@ -41,7 +41,8 @@ void check_against_surface(CurveSegment& segment, const Triangulation& surface,
   if (met < 0) return;
   const Point<3> place = meeting_point(x, y, surface.corners(met));
   reject_domain(segment.name + " meets " + surface.triangle_name(met) + " at " + point_text(place) +
-                ": a curve and a surface may meet in common vertices only");
+                ": a curve and a surface may meet in common vertices only, unless "
+                "pnpbs_domain_set_fragment splits both there");
 }
 
 // Returns true if one of two segments with a common end lies on the other.

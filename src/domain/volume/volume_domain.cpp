@@ -315,6 +315,13 @@ void VolumeDomain::set_fragment(OverlapRule overlap) {
   checked_ = false;
 }
 
+void VolumeDomain::set_snap(double length) {
+  if (!(length >= 0 && std::isfinite(length)))
+    reject("length is " + number_text(length) + ", expected a positive number, or 0");
+  snap_ = length;
+  checked_ = false;
+}
+
 void VolumeDomain::take_repair_of(const VolumeDomain& body) {
   taken_distances_ = body.repair_distances();
   taken_warnings_.clear();
@@ -414,6 +421,7 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_fragments() const {
   GivenVolume given = this->given();
   given.contacts = GivenVolume::Contacts::any;
   given.overlap = *fragment_;
+  given.gap = snap_;
   return resolve_volume(given);
 }
 
@@ -461,6 +469,8 @@ void VolumeDomain::check() {
   if (checked_) return;
   if (fragment_ && repair_)
     reject_domain("pnpbs_domain_set_fragment and pnpbs_domain_set_repair exclude each other");
+  if (snap_ > 0 && !fragment_)
+    reject_domain("pnpbs_domain_set_snap in space requires pnpbs_domain_set_fragment");
   std::unique_ptr<ResolvedVolume> resolved;
   if (repair_) {
     resolved = resolve_if_sound();

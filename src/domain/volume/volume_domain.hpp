@@ -113,6 +113,8 @@ class VolumeDomain : public DomainBase<3> {
   // Splits surfaces where they meet: the solids that they describe and the sheets between become
   // regions of one body. `overlap` decides the tags of regions in several solids.
   void set_fragment(OverlapRule overlap);
+  // Sets the distance within which surfaces become one where they are split.
+  void set_snap(double length);
   // Reports the repair of `body`, from which this domain was made, as a repair of this domain.
   void take_repair_of(const VolumeDomain& body);
   // Adds a curve inside, with one tag per segment.
@@ -177,6 +179,7 @@ class VolumeDomain : public DomainBase<3> {
   std::optional<double> repair_;  // resolution of the repair, if one is requested
   bool repair_sound_ = false;
   std::optional<OverlapRule> fragment_;    // set if surfaces are split where they meet
+  double snap_ = 0;                        // distance within which they become one there
   std::vector<GroupTag> named_by_groups_;  // regions whose names check() has set
   // The repair of another domain; see take_repair_of().
   RepairDistances taken_distances_;

@@ -157,6 +157,7 @@ class Resolver {
         filled_(given.filled),
         contacts_(given.filled ? given.contacts : Contacts::none),
         overlap_(given.overlap),
+        gap_(given.gap),
         result_(result) {}
 
   void run(const GivenVolume& given) {
@@ -185,7 +186,7 @@ class Resolver {
     orient(edges);
     tree_ = tree_of(surface_);
     reject_crossings(surface_, tree_);
-    segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
+    if (!splits()) segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
     check_segments(segments_, surface_, tree_, kSamePoint * size_);
     regions_.emplace(surface_, edges, tree_);
     if (splits()) {
@@ -300,17 +301,10 @@ class Resolver {
   // both sides of them.
   void split() {
     solids_.emplace(surface_);
-    const bool any = contacts_ == Contacts::any;
-    const ArrangementSummary summary = arrange(
-        surface_, kSameVertex * size_, any ? SplitAt::any_point : SplitAt::contacts, parts_);
+    const ArrangementSummary summary = arrange_surfaces();
     for (std::int32_t t = 0; t < triangle_count(); ++t)
       parts_.push_back({t, surface_.triangles[t]});
-    if (summary.tolerance > kSameVertex * size_)
-      result_.warnings.emplace_back(WarningCode::vertices_merged,
-                                    "the coordinates have few digits, so that surfaces within " +
-                                        rounded_text(summary.tolerance) +
-                                        " of each other became one where they meet",
-                                    summary.covered, summary.tolerance);
+    warn_of_tolerance(summary);
     const SurfaceEdges edges(surface_);
     const BoxTree<3> tree = tree_of(surface_);
     if (summary.rounds == 0) reject_crossings(surface_, tree);  // They may have been left alone.
@@ -322,6 +316,41 @@ class Resolver {
       triangle.inner = inside_[regions.front(t)] == inside_[regions.back(t)];
       triangle.by_place = triangle.dividing = false;
     }
+  }
+
+  // Splits the surfaces, and curves and fixed nodes with them.
+  ArrangementSummary arrange_surfaces() {
+    const std::vector<CurveSegment> given =
+        make_segments(polylines_, curve_vertices_, surface_.vertices);
+    std::vector<ArrangedSegment> curves;
+    for (const CurveSegment& segment : given)
+      curves.push_back({segment.ends, static_cast<std::int32_t>(curves.size())});
+    for (const std::int32_t v : fixed_vertices_)
+      curves.push_back({{v, v}, static_cast<std::int32_t>(curves.size())});
+    const SplitAt at = contacts_ == Contacts::any ? SplitAt::any_point : SplitAt::contacts;
+    const ArrangementSummary summary =
+        arrange(surface_, curves, {kSameVertex * size_, at, gap_}, parts_);
+    for (const auto& [ends, number] : curves) {
+      if (index(number) < given.size()) {
+        segments_.push_back(given[index(number)]);
+        segments_.back().ends = ends;
+      } else {
+        fixed_vertices_[index(number) - given.size()] = ends[0];
+      }
+    }
+    return summary;
+  }
+
+  void warn_of_tolerance(const ArrangementSummary& summary) {
+    if (summary.tolerance <= kSameVertex * size_) return;
+    const bool by_gap = summary.tolerance == gap_ / kContactReach;
+    if (by_gap && summary.covered == 0) return;
+    const double within = by_gap ? gap_ : summary.tolerance;
+    result_.warnings.emplace_back(
+        WarningCode::vertices_merged,
+        std::string(by_gap ? "" : "the coordinates have few digits, so that ") +
+            "surfaces within " + rounded_text(within) + " of each other became one where they meet",
+        summary.covered, within);
   }
 
   // Rejects a surface that ends inside or outside of others, because it may be a body with a hole.
@@ -607,6 +636,7 @@ class Resolver {
   bool filled_;
   Contacts contacts_;
   OverlapRule overlap_;
+  double gap_;
   Triangulation surface_;
   double size_ = 0;
   std::vector<std::int32_t> curve_vertices_, fixed_vertices_;  // vertices of the given points

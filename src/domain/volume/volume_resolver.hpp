@@ -28,6 +28,7 @@ struct GivenVolume {
     any
   } contacts = Contacts::none;
   OverlapRule overlap = OverlapRule::last;
+  double gap = 0;  // surfaces this close to each other become one where they are split
 };
 
 // Welds the surfaces, checks and orients them, and finds the inside and the features. Throws
