@@ -719,8 +719,7 @@ class Arranger {
       all.triangles.push_back(
           {pieces[p].vertices, static_cast<std::int32_t>(p), parent.source, parent.number, false});
     }
-    if (const auto thin = remove_thin_pieces(all, tolerance_))
-      reject_near(all.corners(*thin), parent_of(pieces[index(all.triangles[index(*thin)].tag)]));
+    if (const auto thin = remove_thin_pieces(all, tolerance_)) reject_near(all.corners(*thin));
     std::vector<Piece> kept;
     for (const SurfaceTriangle& triangle : all.triangles) {
       Piece piece = pieces[index(triangle.tag)];
@@ -736,30 +735,58 @@ class Arranger {
     return parents_.members(piece.parents)[0] / 2;
   }
 
-  // Rejects surfaces that are too close to each other to be split, at a piece of the given triangle
-  // `own` with these corners. Names the group of it and the group nearest to the piece.
-  [[noreturn]] void reject_near(const FacetCorners<3>& corners, std::int32_t own) const {
-    const SurfaceTriangle& parent = surface_.triangles[index(own)];
-    std::int32_t other = -1;
-    double distance_of_other = HUGE_VAL;
+  // The part of a group of triangles near a piece.
+  struct NearGroup {
+    std::int32_t triangle = -1;  // of the group, nearest to the piece
+    double distance = 0;         // largest one of a corner of the piece
+  };
+
+  // Returns the groups of given triangles, nearest to the piece with these corners first.
+  std::vector<NearGroup> groups_near(const FacetCorners<3>& corners) const {
+    struct Distances {
+      std::array<double, 3> of_corners{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+      std::int32_t triangle = -1;
+    };
+    std::map<std::pair<std::int32_t, std::int32_t>, Distances> groups;  // by source and tag
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface_.triangles.size()); ++t) {
       const SurfaceTriangle& triangle = surface_.triangles[index(t)];
-      if (triangle.source == parent.source && triangle.tag == parent.tag) continue;
-      double farthest = 0;
-      for (const Point<3>& x : corners)
-        farthest = std::max(farthest, distance<3>(nearest_on(surface_.corners(t), x), x));
-      if (farthest >= distance_of_other) continue;
-      distance_of_other = farthest;
-      other = t;
+      Distances& group = groups[{triangle.source, triangle.tag}];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double gap = distance<3>(nearest_on(surface_.corners(t), corners[k]), corners[k]);
+        if (gap >= group.of_corners[k]) continue;
+        group.of_corners[k] = gap;
+        if (k == 0) group.triangle = t;
+      }
     }
-    const MessageText place = " at " + point_text(corners[0]);
-    const MessageText what =
-        other < 0 ? surface_.group_name(own) + " meets itself" + place
-                  : surface_.group_name(own) + " and " + surface_.group_name(other) + " are " +
-                        rounded_text(distance_of_other) + " from each other" + place;
-    throw BrokenSurface(what +
-                        ", too near to be split where they meet: pnpbs_domain_set_snap (in the "
-                        "command --snap) with a larger length makes them one");
+    std::vector<NearGroup> near;
+    for (const auto& [key, group] : groups)
+      near.push_back({group.triangle, std::ranges::max(group.of_corners)});
+    std::ranges::stable_sort(near, {}, &NearGroup::distance);
+    return near;
+  }
+
+  // Rejects surfaces that are too close to each other to be split, at a piece with these corners.
+  // Names the two nearest groups that are nearly parallel there.
+  [[noreturn]] void reject_near(const FacetCorners<3>& corners) const {
+    constexpr double kParallel =
+        0.9;  // least cosine of the angle between nearly parallel triangles
+    const std::vector<NearGroup> near = groups_near(corners);
+    const auto normal_of = [&](const NearGroup& group) {
+      return unit_vector(area_normal(surface_.corners(group.triangle)));
+    };
+    const MessageText place = point_text(corners[0]);
+    for (std::size_t j = 1; j < near.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) {
+        if (std::fabs(dot(normal_of(near[i]), normal_of(near[j]))) < kParallel) continue;
+        throw BrokenSurface(
+            surface_.group_name(near[i].triangle) + " and " +
+            surface_.group_name(near[j].triangle) + " are within " +
+            rounded_text(near[j].distance) + " of each other at " + place +
+            ", too near to be split where they meet: pnpbs_domain_set_snap (in the command --snap) "
+            "with a larger length makes them one");
+      }
+    throw BrokenSurface(surface_.group_name(near[0].triangle) + " at " + place +
+                        " cannot be split where it meets itself because coordinates are rounded");
   }
 
   [[noreturn]] void reject(const Meetings& meetings) const {
@@ -779,7 +806,7 @@ class Arranger {
       };
       p = index(std::ranges::min_element(pieces_, {}, distance_of) - pieces_.begin());
     }
-    reject_near(corners_of(positions_, pieces_[p].vertices), parent_of(pieces_[p]));
+    reject_near(corners_of(positions_, pieces_[p].vertices));
   }
 
   // Writes the pieces as triangles in the order of the triangles that they come from.

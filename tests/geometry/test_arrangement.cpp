@@ -501,6 +501,41 @@ START_TEST(gaps_and_overlaps_within_a_length_are_closed) {
 }
 END_TEST
 
+// Returns a block, and two sheets through it with a tiny angle between them, all turned.
+static std::vector<SurfaceSource> block_with_near_sheets(double angle) {
+  const auto height_of = [angle](double x, double y) {
+    return 0.5 + angle * (x - 0.37 * y - 0.31);
+  };
+  const auto corner = [&](double x, double y) { return P{x, y, height_of(x, y)}; };
+  std::vector<SurfaceSource> sources{
+      box({0, 0, 0}, {1, 1, 1}), sheet({-1, -1, 0.5}, {2, -1, 0.5}, {2, 2, 0.5}, {-1, 2, 0.5}),
+      sheet(corner(-1, -1), corner(2, -1), corner(2, 2), corner(-1, 2))};
+  sources[1].name = "the first sheet";
+  sources[2].name = "the second sheet";
+  for (SurfaceSource& source : sources) source = moved(source, turned);
+  return sources;
+}
+
+START_TEST(sheets_too_near_to_be_split_are_named) {
+  int rejected = 0;
+  for (double angle = 1e-13; angle < 1e-4; angle *= 3) {
+    const Triangulation given = joined(block_with_near_sheets(angle));
+    try {
+      check_conforms(arranged(given).surface);
+    } catch (const pnpbs::Error& error) {
+      ++rejected;
+      for (const char* part : {"the first sheet", "the second sheet", "set_snap", "--snap"})
+        ck_assert_msg(error.message().text().find(part) != std::string::npos, "%s",
+                      error.message().text().c_str());
+    }
+    const Arranged closed = arranged(given, SplitAt::any_point, 3e-4);
+    check_conforms(closed.surface);
+    expect_volumes(closed.surface, {0.5, 0.5}, 1e-3);
+  }
+  ck_assert_int_gt(rejected, 0);
+}
+END_TEST
+
 // ---------------------------------------------------------------- sheets
 START_TEST(a_sheet_cuts_a_box) {
   const Arranged it = expect_bodies(
@@ -736,6 +771,7 @@ TEST_SUITE(test_arrangement) {
                                    three_faces_lie_on_each_other,
                                    curves_and_points_are_split_with_surfaces,
                                    gaps_and_overlaps_within_a_length_are_closed,
+                                   sheets_too_near_to_be_split_are_named,
                                    a_sheet_cuts_a_box,
                                    a_sheet_ends_on_the_sides_of_a_box,
                                    vertices_on_edges_need_no_new_ones,
