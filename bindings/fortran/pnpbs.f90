@@ -132,6 +132,9 @@ module pnpbs
     procedure :: bounds => domain_bounds
     procedure :: measure => domain_measure
     procedure :: distance => domain_distance
+    procedure, private :: domain_regions_at
+    procedure, private :: domain_regions_at_columns
+    generic :: regions_at => domain_regions_at, domain_regions_at_columns
     procedure :: shape_spacing => domain_shape_spacing
     procedure :: segment_count => domain_segment_count
     procedure :: get_segments => domain_get_segments
@@ -230,6 +233,8 @@ module pnpbs
     generic :: get => placement_get_int64, placement_get_real, placement_get_text
     procedure :: edge_band_count => placement_edge_band_count
     procedure :: get_edge_bands => placement_get_edge_bands
+    procedure :: region_count => placement_region_count
+    procedure :: get_regions => placement_get_regions
     procedure :: cell_band_count => placement_cell_band_count
     procedure :: get_cell_bands => placement_get_cell_bands
     procedure :: warning_count => placement_warning_count
@@ -1480,6 +1485,48 @@ contains
       status = c_domain_distance(self%c, which, size(distances, kind=c_int64_t), coordinates, &
                                  distances)
     call conclude('domain%distance', status, stat, errmsg, given)
+  end subroutine
+
+  !> Returns the region tags at points (domain%add_region, domain%set_fragment), for use in a
+  !> spacing callback: 0 where a region has no tag, and outside of the domain the tag of the region
+  !> behind the nearest point of the boundary. A point within 1e-6 of the size of the domain from
+  !> interfaces lies in the regions on both sides: use the least d of these, because nodes on
+  !> interfaces lie on one side or the other by rounding. Local; checks the domain first. If a
+  !> callback queries regions, query them once before the run. Errors: PNPBS_ERROR_ARGUMENT if no
+  !> region of the domain has a tag.
+  !>   coordinates  (dim, n)
+  !>   tags         (n), or (rows, n): first of the region that contains the point, then of others at
+  !>                interfaces, and the first one again where there are fewer
+  subroutine domain_regions_at(self, coordinates, tags, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    integer(c_int32_t), intent(inout) :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_places(self, coordinates, size(tags, kind=c_int64_t), 'tags', given)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_regions_at(self%c, size(tags, kind=c_int64_t), coordinates, 1_c_int32_t, &
+                                   tags)
+    call conclude('domain%regions_at', status, stat, errmsg, given)
+  end subroutine
+
+  subroutine domain_regions_at_columns(self, coordinates, tags, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: coordinates(:,:)
+    integer(c_int32_t), intent(inout) :: tags(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    integer(c_int) :: status
+    call check_places(self, coordinates, size(tags, 2, kind=c_int64_t), 'tags', given)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) &
+      status = c_domain_regions_at(self%c, size(tags, 2, kind=c_int64_t), coordinates, &
+                                   size(tags, 1, kind=c_int32_t), tags)
+    call conclude('domain%regions_at', status, stat, errmsg, given)
   end subroutine
 
   !> Evaluates the spacing that placement%set_spacing_from_shape sets, without its bounds, for use
@@ -2869,6 +2916,46 @@ contains
                   c_placement_get_edge_bands(self%c, given%capacity(minval(room)), count, a_from, &
                                              a_to, a_edges, a_mean, a_deviation), stat, errmsg, &
                   given)
+  end subroutine
+
+  !> Returns the number of regions that get_regions returns. Collective.
+  subroutine placement_region_count(self, count, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    count = 0
+    call conclude('placement%region_count', &
+                  c_placement_get_regions(self%c, 0_c_int64_t, count, c_null_ptr, c_null_ptr, &
+                                          c_null_ptr, c_null_ptr), stat, errmsg)
+  end subroutine
+
+  !> Measures the regions of the domain by the tags of their elements (get_element_tags), also the
+  !> elements without a tag if there are any. The result includes all ranks and is the same on each,
+  !> with the same bits for any number of them. Collective. Errors: PNPBS_ERROR_CAPACITY;
+  !> PNPBS_ERROR_ARGUMENT on surfaces alone.
+  !>   tags      optional, (count), increasing
+  !>   nodes     optional, (count): number of nodes of the elements; those of an interface are in
+  !>             several regions
+  !>   elements  optional, (count): number of elements
+  !>   measures  optional, (count): volume of the elements, in the plane area
+  subroutine placement_get_regions(self, tags, nodes, elements, measures, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    integer(c_int64_t), intent(inout), optional :: nodes(:), elements(:)
+    real(c_double), intent(inout), optional :: measures(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags, a_nodes, a_elements, a_measures
+    integer(c_int64_t) :: room(4), count
+    call given%place_int32('tags', tags, a_tags, room(1))
+    call given%place_int64('nodes', nodes, a_nodes, room(2))
+    call given%place_int64('elements', elements, a_elements, room(3))
+    call given%place_real('measures', measures, a_measures, room(4))
+    call conclude('placement%get_regions', &
+                  c_placement_get_regions(self%c, given%capacity(minval(room)), count, a_tags, &
+                                          a_nodes, a_elements, a_measures), stat, errmsg, given)
   end subroutine
 
   !> Returns the number of bands that get_cell_bands returns: 8 at most. Collective.

@@ -774,6 +774,18 @@ module pnpbs_c
       integer(c_int) :: c_domain_distance
     end function
 
+    function c_domain_regions_at(domain, n, coordinates, columns, tags) bind(C, &
+      name="pnpbs_domain_regions_at")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_int32_t), value :: columns
+      integer(c_int32_t), intent(inout) :: tags(*)
+      integer(c_int) :: c_domain_regions_at
+    end function
+
     function c_domain_shape_spacing(domain, nodes_per_turn, nodes_across, nodes_per_edge, growth, &
       n, coordinates, d) bind(C, name="pnpbs_domain_shape_spacing")
       import
@@ -1360,6 +1372,20 @@ module pnpbs_c
       type(c_ptr), value :: mean ! double *
       type(c_ptr), value :: deviation ! double *
       integer(c_int) :: c_placement_get_edge_bands
+    end function
+
+    function c_placement_get_regions(placement, capacity, count, tags, nodes, elements, measures) &
+      bind(C, name="pnpbs_placement_get_regions")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: tags ! int32_t *
+      type(c_ptr), value :: nodes ! int64_t *
+      type(c_ptr), value :: elements ! int64_t *
+      type(c_ptr), value :: measures ! double *
+      integer(c_int) :: c_placement_get_regions
     end function
 
     function c_placement_get_cell_bands(placement, measure, capacity, count, d_from, d_to, number, &

@@ -699,6 +699,21 @@ PNPBS_API pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure
 PNPBS_API pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
                                              const double *coordinates, double *distances);
 
+/** Returns the region tags at points (pnpbs_domain_add_region, pnpbs_domain_set_fragment), for use
+ *  in a spacing callback: 0 where a region has no tag, and outside of the domain the tag of the
+ *  region behind the nearest point of the boundary. A point within 1e-6 of the size of the domain
+ *  from interfaces lies in the regions on both sides: use the least d of these, because nodes on
+ *  interfaces lie on one side or the other by rounding. Local; checks the domain first: make one
+ *  query before querying from inside a callback. Errors: PNPBS_ERROR_ARGUMENT if no region of the
+ *  domain has a tag, or for coordinates beyond 1e60.
+ *  @param[in] coordinates  [n][dim]
+ *  @param[in] columns      >= 1: tags at each point
+ *  @param[out] tags        [n][columns] first of the region that contains the point, then of others
+ *                          at interfaces; the first one again where there are fewer */
+PNPBS_API pnpbs_status pnpbs_domain_regions_at(pnpbs_domain domain, int64_t n,
+                                               const double *coordinates, int32_t columns,
+                                               int32_t *tags);
+
 /** Evaluates the spacing that pnpbs_placement_set_spacing_from_shape would set, without its bounds,
  *  for use in a spacing callback. Local; checks the domain first. The first query computes what the
  *  shape requires and keeps it: make one query before querying from inside a callback.
@@ -1285,6 +1300,22 @@ PNPBS_API pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement,
                                                       int64_t *count, double *d_from, double *d_to,
                                                       int64_t *edges, double *mean,
                                                       double *deviation);
+
+/** Measures the regions of the domain by the tags of their elements
+ *  (pnpbs_placement_get_element_tags), also the elements without a tag if there are any. Includes
+ *  all ranks, and is the same on each, with the same bits for any number of them. Collective. Call
+ *  with capacity 0 to get the count; arrays may be NULL. Errors: PNPBS_ERROR_CAPACITY;
+ *  PNPBS_ERROR_ARGUMENT on surfaces alone.
+ *  @param[in] capacity   regions the arrays have room for
+ *  @param[out] count     number of regions that have elements
+ *  @param[out] tags      [count] increasing
+ *  @param[out] nodes     [count] of the elements of the region; those of an interface are in
+ * several
+ *  @param[out] elements  [count]
+ *  @param[out] measures  [count] volume of the elements, in the plane area, on a sphere along it */
+PNPBS_API pnpbs_status pnpbs_placement_get_regions(pnpbs_placement placement, int64_t capacity,
+                                                   int64_t *count, int32_t *tags, int64_t *nodes,
+                                                   int64_t *elements, double *measures);
 
 /** Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the plane
  *  and on spheres; elsewhere there are no bands. A cell is the polygon of the circumcentres of the

@@ -295,10 +295,7 @@ pnpbs_status pnpbs_placement_get_element_tags(pnpbs_placement placement, int64_t
                                               int64_t* count, int32_t* tags) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    if (results.kind() == GeometryKind::surface)
-      throw Error(ErrorKind::argument,
-                  "argument placement has surfaces alone: their tags come with "
-                  "pnpbs_placement_get_boundary_triangles");
+    require_inside(results);
     results.prepare_stars();
     pnpbs::visit_dimension(results, [&]<int Dim>(const Results<Dim>& in) {
       *count = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// C interface: measures of a placement, namely edge lengths and Voronoi cells by bands of d, and
-// the estimate of a run.
+// C interface: measures of a placement, namely edge lengths and Voronoi cells by bands of d, the
+// regions, and the estimate of a run.
 #include "api/placement_calls.hpp"
+#include "results/region_figures.hpp"
 #include "settings/named_rows.hpp"
 
 using namespace pnpbs;
@@ -38,6 +39,27 @@ pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t c
       if (edges) edges[k] = bands[k].ratio.edges;
       if (mean) mean[k] = bands[k].ratio.mean;
       if (deviation) deviation[k] = bands[k].ratio.deviation;
+    }
+    return PNPBS_OK;
+  });
+}
+
+pnpbs_status pnpbs_placement_get_regions(pnpbs_placement placement, int64_t capacity,
+                                         int64_t* count, int32_t* tags, int64_t* nodes,
+                                         int64_t* elements, double* measures) {
+  return collective_results(placement, [&](NodalResults& results) {
+    require_pointer(count, "count");
+    require_inside(results);
+    const std::vector<RegionFigures> regions =
+        visit_dimension(results, [](auto& in) { return region_figures(in); });
+    *count = std::ssize(regions);
+    if (capacity == 0 && !tags && !nodes && !elements && !measures) return PNPBS_OK;
+    require_capacity(capacity, *count);
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      if (tags) tags[k] = regions[k].tag;
+      if (nodes) nodes[k] = regions[k].nodes;
+      if (elements) elements[k] = regions[k].elements;
+      if (measures) measures[k] = regions[k].measure;
     }
     return PNPBS_OK;
   });

@@ -79,6 +79,14 @@ inline void require_capacity(std::int64_t capacity, std::int64_t needed,
                                          "; " + std::to_string(needed) + " are needed");
 }
 
+// Throws for surfaces alone, which have no regions.
+inline void require_inside(const NodalResults& results) {
+  if (results.kind() == GeometryKind::surface)
+    throw Error(ErrorKind::argument,
+                "argument placement has surfaces alone: their tags come with "
+                "pnpbs_placement_get_boundary_triangles");
+}
+
 // Returns the results of a placement of this dimension. Throws for other placements.
 template <int Dim>
 Results<Dim>& require_dimension(NodalResults& results) {

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <vector>
 
+#include "api/domain_calls.hpp"
 #include "api/placement_calls.hpp"
+#include "api/sphere_points.hpp"
 #include "base/started_execution.hpp"
 #include "domain/given_values.hpp"
 #include "spacing/sphere_spacing.hpp"
@@ -104,6 +108,35 @@ pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
     const Point<Dim>* const x = points_from<Dim>(coordinates);
     for_each_if_started("pnpbs_domain_distance", n,
                         [&](std::int64_t i) { distances[i] = shapes.distance(tag, x[i]); });
+  });
+}
+
+pnpbs_status pnpbs_domain_regions_at(pnpbs_domain domain, int64_t n, const double* coordinates,
+                                     int32_t columns, int32_t* tags) {
+  return guarded(domain, [&](DomainObject& object) {
+    require_count(n, "n");
+    if (n > 0) require_pointer(coordinates, "coordinates");
+    if (n > 0) require_pointer(tags, "tags");
+    given_values::require_count("columns", columns, 1);
+    visit_dimension(object, [&]<class Given>(Given& given) {
+      constexpr int Dim = std::is_same_v<Given, PlaneDomain> ? 2 : 3;
+      if (!given.is_checked()) {
+        const Computing computing(*object.context);
+        given.check();
+      }
+      if (!given.regions())
+        throw Error(ErrorKind::argument,
+                    "argument domain: no region has a tag; pnpbs_domain_add_region (--region) and "
+                    "pnpbs_domain_set_fragment (--fragment) give tags");
+      std::vector<double> charted;
+      const double* const placed = placed_coordinates(given.embedding(), n, coordinates, charted);
+      given_values::require_points<Dim>("argument coordinates", n, placed);
+      const Point<Dim>* const x = points_from<Dim>(placed);
+      for_each_if_started("pnpbs_domain_regions_at", n, [&](std::int64_t i) {
+        given.regions()->tags_at(x[i], columns, tags + columns * i);
+      });
+    });
+    return PNPBS_OK;
   });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/region_index.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -14,6 +16,7 @@ namespace pnpbs {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNear = 1e-6;
 
 Point<2> normal_of(const FacetCorners<2>& edge) {
   return {edge[0][1] - edge[1][1], edge[1][0] - edge[0][0]};
@@ -50,6 +53,7 @@ RegionIndex<Dim>::RegionIndex(std::vector<RegionFacet<Dim>> facets) : facets_(st
     all = joined(all, box);
   }
   beyond_ = all.high[0] + size_of(all);
+  near_ = kNear * size_of(all);
   tree_ = BoxTree<Dim>(std::move(boxes));
 }
 
@@ -71,6 +75,25 @@ std::int32_t RegionIndex<Dim>::tag_at(const Point<Dim>& x) const {
   if (!first) return tag_behind_nearest_facet(x);
   const std::size_t side = side_of(first->corners, x);
   return first->inside[side] ? first->tags[side] : tag_behind_nearest_facet(x);
+}
+
+template <int Dim>
+void RegionIndex<Dim>::tags_at(const Point<Dim>& x, std::int32_t columns,
+                               std::int32_t* tags) const {
+  std::fill_n(tags, columns, tag_at(x));
+  if (columns == 1) return;
+  std::vector<std::int32_t> others;
+  tree_.for_near(
+      x, [&] { return near_ * near_; },
+      [&](std::int32_t f) {
+        const RegionFacet<Dim>& facet = facets_[index(f)];
+        if (distance<Dim>(nearest_on(facet.corners, x), x) > near_) return;
+        for (std::size_t side = 0; side < 2; ++side)
+          if (facet.inside[side] && facet.tags[side] != tags[0]) others.push_back(facet.tags[side]);
+      });
+  std::ranges::sort(others);
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  std::copy_n(others.begin(), std::min(std::ssize(others), std::ptrdiff_t{columns} - 1), tags + 1);
 }
 
 template <int Dim>

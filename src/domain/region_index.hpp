@@ -30,12 +30,18 @@ class RegionIndex {
   // Local and thread-safe.
   std::int32_t tag_at(const Point<Dim>& x) const;
 
+  // Writes the tags of up to `columns` regions to `tags`: that of tag_at(), and in increasing order
+  // those of the other regions whose facets are within 1e-6 of the size of the domain. The last
+  // entries repeat the first one where there are fewer. Local and thread-safe.
+  void tags_at(const Point<Dim>& x, std::int32_t columns, std::int32_t* tags) const;
+
  private:
   std::int32_t tag_behind_nearest_facet(const Point<Dim>& x) const;
 
   std::vector<RegionFacet<Dim>> facets_;
   BoxTree<Dim> tree_;
   double beyond_ = 0;  // first coordinate beyond all facets
+  double near_ = 0;    // distance up to which facets are near a point
 };
 
 extern template class RegionIndex<2>;

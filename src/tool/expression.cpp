@@ -127,6 +127,19 @@ double shape_spacing(const char* name, double number, double per_turn, double ac
   });
 }
 
+constexpr std::int32_t kRegionColumns = 4;
+
+// Returns one of the tags of the regions at a point, of which there are several on interfaces.
+double region_at(std::int32_t column) {
+  return shape_value("region", column, [](double k, std::int64_t n, const double* x, double* of) {
+    std::vector<std::int32_t> tags(static_cast<std::size_t>(n * kRegionColumns));
+    check(pnpbs_domain_regions_at(shape_at_places->domain, n, x, kRegionColumns, tags.data()),
+          shape_context);
+    for (std::int64_t i = 0; i < n; ++i)
+      of[i] = tags[static_cast<std::size_t>(i * kRegionColumns + static_cast<std::int64_t>(k))];
+  });
+}
+
 double curvature_of(double nodes) { return shape_spacing("curvature", nodes, nodes, 0, 0); }
 double gap_of(double nodes) { return shape_spacing("gap", nodes, 0, nodes, 0); }
 
@@ -267,9 +280,9 @@ struct Expression::Parser {
   double place[3] = {0, 0, 0};
   double lon = 0, lat = 0;  // at `place`, in degrees
   bool asks_lon = false, asks_lat = false;
-  double dist = 1, seglen = 1;  // at `place`
+  double dist = 1, seglen = 1, region = 1;  // at `place`
   bool uses_shape = false;
-  bool asks_dist = false, asks_seglen = false;
+  bool asks_dist = false, asks_seglen = false, asks_region = false;
   std::vector<std::string> shape_calls;
   pnpbs_domain domain = nullptr;
   pnpbs_context context = nullptr;
@@ -295,16 +308,18 @@ struct Expression::Parser {
     if (names != Names::coordinates) {
       parser.DefineVar("dist", &dist);
       parser.DefineVar("seglen", &seglen);
+      parser.DefineVar("region", &region);
     }
   }
   void find_out() {
     const auto& used = parser.GetUsedVar();
     asks_dist = used.contains("dist");
     asks_seglen = used.contains("seglen");
+    asks_region = used.contains("region");
     asks_lon = used.contains("lon");
     asks_lat = used.contains("lat");
     shape_calls = shape_calls_in(text);
-    uses_shape = !shape_calls.empty() || asks_dist || asks_seglen;
+    uses_shape = !shape_calls.empty() || asks_dist || asks_seglen || asks_region;
   }
   // Evaluates all calls of shape functions at a point, also those in branches that are not taken
   // there. Errors then appear before the run. The library also computes here what it cannot compute
@@ -346,7 +361,16 @@ struct Expression::Parser {
   double value() {
     if (asks_dist) dist = distance_to(0);
     if (asks_seglen) seglen = shape_spacing("seglen", 1, 0, 0, 1);
-    return parser.Eval();
+    if (!asks_region) return parser.Eval();
+    // Nodes on an interface belong to several regions, so the smallest value holds there.
+    const double first = region = region_at(0);
+    double least = parser.Eval();
+    for (std::int32_t k = 1; k < kRegionColumns; ++k) {
+      region = region_at(k);
+      if (region == first) break;
+      least = std::min(least, parser.Eval());
+    }
+    return least;
   }
   // Evaluates the formula at the points first to last - 1. values_of_fields has those of each field
   // at all points.
@@ -402,6 +426,11 @@ void Expression::set_shape_domain(pnpbs_domain domain, pnpbs_context context) {
   parser_->context = context;
   of_other_threads_.clear();
   if (!parser_->uses_shape && parser_->fields.empty()) return;
+  if (parser_->asks_region &&
+      pnpbs_domain_regions_at(domain, 0, nullptr, 1, nullptr) == PNPBS_ERROR_ARGUMENT)
+    throw BadInput(parser_->option +
+                   ": region: no region of the domain has a tag; --region, --region-field, "
+                   "--fragment and files give tags");
   if (!parser_->groups.empty()) {
     const std::vector<GroupName> names = group_names(domain, context);
     for (NamedGroup& group : parser_->groups)
@@ -481,7 +510,8 @@ std::string expression_help() {
          "the name of one of the groups, the "
          "names of --spacing-grid and, with _slope after them, the slopes of the grids, by_depth "
          "of --depth-rule, "
-         "seglen, the length of the input's edges, curvature(N), the d for N nodes per turn, and "
+         "seglen, the length of the input's edges, region, the tag of the region at the point, "
+         "curvature(N), the d for N nodes per turn, and "
          "gap(N), the d for N nodes across, which grow by 0.15 per unit of distance";
 }
 

@@ -349,9 +349,13 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
       for_report(arguments, geo, context, placement, of_grids);
   if (geo && !requests.source->on_sphere()) outputs.write_projection(geo->projection().prj);
   const std::vector<GroupName> groups = group_names(domain, context);
+  const bool has_volume = body && body->volume > 0;
+  std::vector<RegionRow> regions;
+  if (!arguments.at_centres && !arguments.surfaces_only)
+    regions = region_rows(placement, domain, has_volume ? 3 : 2, context);
   const auto report = [&] {
     return report_text(work.arguments, geo, statistics, matter.volumes, matter.figures, groups,
-                       warnings);
+                       regions, has_volume, warnings);
   };
   outputs.write_report(report());
   give_up_if_any_is_interrupted(ranks);
@@ -360,7 +364,8 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   statistics.renew_memory(placement);  // writing files takes memory as well
   outputs.replace_report(report());
   if (work.talks() && !outputs.use_standard_output())
-    std::cout << summary_text(statistics, body, matter.volumes, matter.figures, outputs.files());
+    std::cout << summary_text(statistics, body, regions, matter.volumes, matter.figures,
+                              outputs.files());
   const bool of_elements = status == PNPBS_NOT_CONFORMING || status == PNPBS_SPACING_MISSED;
   if (arguments.at_centres && of_elements) status = PNPBS_OK;
   return geo && leaves_out_shapes(*geo, context, placement) ? ExitCode::input_left_out

@@ -89,6 +89,19 @@ Json groups_of(const std::vector<GroupName>& groups) {
   return list;
 }
 
+Json figures_of(const std::vector<RegionRow>& regions, bool have_volumes) {
+  Json list = Json::array();
+  for (const RegionRow& region : regions) {
+    Json entry = {{"tag", region.tag}};
+    if (!region.name.empty()) entry["name"] = region.name;
+    entry["nodes"] = region.nodes;
+    entry["elements"] = region.elements;
+    entry[have_volumes ? "volume" : "area"] = region.measure;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json figures_of(const VolumeFigures& volumes) {
   return {{"total", volumes.total},
           {"ratio", {{"mean", volumes.mean}, {"min", volumes.min}, {"max", volumes.max}}}};
@@ -107,8 +120,8 @@ Json figures_of(const ParticleFigures& particles) {
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
                         const std::optional<ParticleFigures>& particles,
-                        const std::vector<GroupName>& groups,
-                        const std::vector<std::string>& warnings) {
+                        const std::vector<GroupName>& groups, const std::vector<RegionRow>& regions,
+                        bool regions_have_volumes, const std::vector<std::string>& warnings) {
   Json report;
   report["domain"] = arguments.domain;
   if (!arguments.unit.empty()) report["unit"] = arguments.unit;
@@ -140,6 +153,7 @@ std::string report_text(const Arguments& arguments, const GeoFile* geo,
     insert(report, name, std::visit(AsJson(), value));
   report["edge"]["bands"] = edge_bands_of(statistics);
   if (!statistics.cell_bands().empty()) report["cell"]["bands"] = cell_bands_of(statistics);
+  if (!regions.empty()) report["by_region"] = figures_of(regions, regions_have_volumes);
   if (volumes) report["volumes"] = figures_of(*volumes);
   if (volumes && volumes->mass) report["mass"] = *volumes->mass;
   if (particles) report["particles"] = figures_of(*particles);

@@ -18,7 +18,7 @@ namespace pnpbs::tool {
 std::string report_text(const Arguments& arguments, const GeoFile* geo,
                         const Statistics& statistics, const std::optional<VolumeFigures>& volumes,
                         const std::optional<ParticleFigures>& particles,
-                        const std::vector<GroupName>& groups,
-                        const std::vector<std::string>& warnings);
+                        const std::vector<GroupName>& groups, const std::vector<RegionRow>& regions,
+                        bool regions_have_volumes, const std::vector<std::string>& warnings);
 
 }  // namespace pnpbs::tool

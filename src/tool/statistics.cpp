@@ -60,6 +60,29 @@ std::vector<CellBand> read_cell_bands(pnpbs_placement placement) {
 
 }  // namespace
 
+std::vector<RegionRow> region_rows(pnpbs_placement placement, pnpbs_domain domain, int dimension,
+                                   pnpbs_context context) {
+  if (pnpbs_domain_regions_at(domain, 0, nullptr, 1, nullptr) < 0) return {};
+  std::int64_t count = 0;
+  check(pnpbs_placement_get_regions(placement, 0, &count, nullptr, nullptr, nullptr, nullptr),
+        context);
+  const auto n = static_cast<std::size_t>(count);
+  std::vector<std::int32_t> tags(n);
+  std::vector<std::int64_t> nodes(n), elements(n);
+  std::vector<double> measures(n);
+  check(pnpbs_placement_get_regions(placement, count, &count, tags.data(), nodes.data(),
+                                    elements.data(), measures.data()),
+        context);
+  const std::vector<GroupName> groups = group_names(domain, context);
+  std::vector<RegionRow> rows;
+  for (std::size_t k = 0; k < n; ++k) {
+    rows.push_back({tags[k], "", nodes[k], elements[k], measures[k]});
+    for (const GroupName& group : groups)
+      if (group.dimension == dimension && group.tag == tags[k]) rows.back().name = group.name;
+  }
+  return rows;
+}
+
 Statistics::Statistics(pnpbs_placement placement) {
   for (const LibraryStatistic& statistic : library_statistics()) {
     values_.emplace_back(statistic.name, read(placement, statistic));

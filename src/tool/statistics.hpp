@@ -34,6 +34,19 @@ struct CellBand {
   CellFigure edge_ratio, area_ratio, dual_offset;
 };
 
+// The nodes and elements with one region tag.
+struct RegionRow {
+  std::int32_t tag;  // 0: elements of regions without a tag
+  std::string name;  // empty if it has none
+  std::int64_t nodes, elements;
+  double measure;  // volume or area
+};
+
+// Returns the regions that have elements, or none if no region of the domain has a tag. `dimension`
+// is that of the elements. Collective. Throws Failure.
+std::vector<RegionRow> region_rows(pnpbs_placement placement, pnpbs_domain domain, int dimension,
+                                   pnpbs_context context);
+
 class Statistics {
  public:
   explicit Statistics(pnpbs_placement placement);

@@ -135,6 +135,22 @@ std::string edge_line(const Statistics& statistics) {
   return line + "\n";
 }
 
+std::string region_lines(const std::vector<RegionRow>& regions, const std::string& what) {
+  constexpr std::size_t kMany = 12;
+  std::string lines;
+  for (std::size_t k = 0; k < std::min(regions.size(), kMany); ++k) {
+    const RegionRow& region = regions[k];
+    lines += "region   " + std::to_string(region.tag) +
+             (region.name.empty() ? "" : " '" + region.name + "'") + ": " + grouped(region.nodes) +
+             " nodes, " + grouped(region.elements) + " elements, " + what +
+             measure(region.measure) + "\n";
+  }
+  if (regions.size() > kMany)
+    lines += "region   " + grouped(std::ssize(regions) - static_cast<std::int64_t>(kMany)) +
+             " more: write a report (--report) to have them all\n";
+  return lines;
+}
+
 std::string volume_line(const std::optional<VolumeFigures>& volumes) {
   if (!volumes) return "";
   std::string line = "volumes  " + measure(volumes->total) + " in all";
@@ -203,6 +219,7 @@ std::string estimate_text(const RunEstimate& run) {
 }
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::vector<RegionRow>& regions,
                          const std::optional<VolumeFigures>& volumes,
                          const std::optional<ParticleFigures>& particles,
                          const std::vector<std::string>& files) {
@@ -212,8 +229,10 @@ std::string summary_text(const Statistics& statistics, const std::optional<BodyF
   else
     nodes = nodes_line(statistics) + spacing_line(statistics) + edge_line(statistics) +
             quality_line(statistics, body && body->volume > 0);
-  return body_line(particles ? nullptr : &statistics, body) + nodes + volume_line(volumes) +
-         mass_line(volumes) + stop_line(statistics) + memory_line(statistics) + files_line(files);
+  return body_line(particles ? nullptr : &statistics, body) + nodes +
+         region_lines(regions, body && body->volume > 0 ? "volume " : "area ") +
+         volume_line(volumes) + mass_line(volumes) + stop_line(statistics) +
+         memory_line(statistics) + files_line(files);
 }
 
 }  // namespace pnpbs::tool

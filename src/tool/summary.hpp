@@ -42,6 +42,7 @@ struct RunEstimate {
 std::string estimate_text(const RunEstimate& run);
 
 std::string summary_text(const Statistics& statistics, const std::optional<BodyFigures>& body,
+                         const std::vector<RegionRow>& regions,
                          const std::optional<VolumeFigures>& volumes,
                          const std::optional<ParticleFigures>& particles,
                          const std::vector<std::string>& files);

@@ -103,6 +103,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_measure, (handle, out.reals + 1))                                          \
   X(domain_distance, (handle, 0, 1, grid, out.reals + 1))                             \
   X(domain_shape_spacing, (handle, 20, 3, 1, 0, 1, grid, out.reals + 1))              \
+  X(domain_regions_at, (handle, 1, grid, 1, out.small + 8))                           \
   X(domain_get_segments, (handle, 4, out.integers + 1, out.reals + 2, out.small + 40))
 #define PLACEMENT_CALLS(X)                                                                        \
   X(placement_set, (handle, "steps", "10"))                                                       \
@@ -165,6 +166,8 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(placement_get_string, (handle, "hash", out.texts + 1))                                        \
   X(placement_get_edge_bands, (handle, 1, out.integers + 1, out.reals + 2, out.reals + 3,         \
                                out.integers + 4, out.reals + 5, out.reals + 6))                   \
+  X(placement_get_regions, (handle, 1, out.integers + 1, out.small + 8, out.integers + 2,         \
+                            out.integers + 3, out.reals + 5))                                     \
   X(placement_get_cell_bands, (handle, "edge_ratio", 1, out.integers + 1, out.reals + 2,          \
                                out.reals + 3, out.integers + 4, out.reals + 5, out.reals + 6))    \
   X(placement_warning_count, (handle, out.small + 2))                                             \

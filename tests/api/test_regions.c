@@ -10,12 +10,13 @@
 typedef struct {
   int64_t n;
   int corners, dim;
-  double* x; /* [n][corners][dim] */
+  double* x;     /* [n][corners][dim] */
+  int64_t* rows; /* [n][corners] */
   int32_t* tags;
 } elements;
 
 static elements elements_of(const job* it, int dim) {
-  elements e = {0, dim + 1, dim, NULL, NULL};
+  elements e = {0, dim + 1, dim, NULL, NULL, NULL};
   int64_t nodes, n, k, *rows;
   double* x;
   pnpbs_status (*get)(pnpbs_placement, int64_t, int64_t*, int64_t*) =
@@ -34,13 +35,14 @@ static elements elements_of(const job* it, int dim) {
   MUST(pnpbs_placement_get_element_tags(it->placement, e.n, &e.n, e.tags));
   for (k = 0; k < e.n * e.corners; ++k)
     memcpy(e.x + k * dim, x + rows[k] * dim, (size_t)dim * sizeof *x);
-  free(rows);
+  e.rows = rows;
   free(x);
   return e;
 }
 
 static void elements_free(elements* e) {
   free(e->x);
+  free(e->rows);
   free(e->tags);
 }
 
@@ -94,6 +96,45 @@ static void check_mesh(const job* it, const elements* e, int32_t tag) {
   MUST(pnpbs_mesh_destroy(&mesh));
 }
 
+static int64_t nodes_with(const elements* e, int32_t tag) {
+  int64_t k, most = 0, count = 0;
+  char* seen;
+  for (k = 0; k < e->n * e->corners; ++k) most = e->rows[k] > most ? e->rows[k] : most;
+  seen = calloc((size_t)most + 1, 1);
+  ck_assert_ptr_nonnull(seen);
+  for (k = 0; k < e->n * e->corners; ++k)
+    if (e->tags[k / e->corners] == tag && !seen[e->rows[k]]) {
+      seen[e->rows[k]] = 1;
+      ++count;
+    }
+  free(seen);
+  return count;
+}
+
+/* Checks the figures of all regions against their elements. There are at most eight. */
+static void check_figures(const job* it, const elements* e) {
+  int32_t tags[8];
+  int64_t regions, nodes[8], counts[8], all = 0, k, r;
+  double measures[8];
+  MUST(pnpbs_placement_get_regions(it->placement, 0, &regions, NULL, NULL, NULL, NULL));
+  ck_assert_int_le(regions, 8);
+  MUST(pnpbs_placement_get_regions(it->placement, 8, &regions, tags, nodes, counts, measures));
+  for (r = 0; r < regions; ++r) {
+    int64_t with_tag = 0;
+    if (r > 0) ck_assert_int_lt(tags[r - 1], tags[r]);
+    for (k = 0; k < e->n; ++k) with_tag += e->tags[k] == tags[r];
+    ck_assert_int_gt(with_tag, 0);
+    ck_assert_int_eq(counts[r], with_tag);
+    ck_assert_int_eq(nodes[r], nodes_with(e, tags[r]));
+    ck_assert_double_eq_tol(measures[r], measure_with(e, tags[r]), 1e-12);
+    all += with_tag;
+  }
+  ck_assert_int_eq(all, e->n);
+  MUST_FAIL(PNPBS_ERROR_CAPACITY,
+            pnpbs_placement_get_regions(it->placement, regions - 1, &k, tags, NULL, NULL, NULL),
+            "capacity", "are needed");
+}
+
 static job placed(job it, double d) {
   job_place(&it);
   MUST(pnpbs_placement_set(it.placement, "steps", "60"));
@@ -132,9 +173,82 @@ START_TEST(strips_and_a_disc) {
     from = hypot(x[0] - 1.5, x[1] - 0.5);
     ck_assert_int_eq(e.tags[k], x[0] < 1 ? 30 : x[0] > 2 ? -70 : from < r ? 5 : 0);
   }
+  check_figures(&it, &e);
   check_mesh(&it, &e, 5);
   check_mesh(&it, &e, -70);
   elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* Points in and beside the domain, on both sides of interfaces, and the errors. */
+START_TEST(regions_at_points) {
+  const double wall[4] = {1, 0, 1, 1}, in[2] = {0.1, 0.5};
+  const double x[10] = {0.2, 0.2, 1.8, 0.9, 0.999, 0.5, 1.001, 0.5, -3, 0.5};
+  int32_t tags[5];
+  int k;
+  job it = job_begin();
+  add_rectangle(it.domain, PNPBS_BOUNDARY, 0, 0, 2, 1, 1);
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, wall, NULL, 0));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_regions_at(it.domain, 5, x, 1, tags), "no region",
+            "pnpbs_domain_add_region");
+  MUST(pnpbs_domain_add_region(it.domain, in, 3));
+  MUST(pnpbs_domain_regions_at(it.domain, 5, x, 1, tags));
+  ck_assert_int_eq(tags[0], 3);
+  ck_assert_int_eq(tags[1], 0);
+  ck_assert_int_eq(tags[2], 3);
+  ck_assert_int_eq(tags[3], 0);
+  ck_assert_int_eq(tags[4], 3);
+  for (k = 0; k < 3; ++k) { /* beside and on the interface, and away from it */
+    const double at[2] = {k == 0 ? 1 - 1e-6 : k == 1 ? 1 : 0.9, 0.5};
+    MUST(pnpbs_domain_regions_at(it.domain, 1, at, 3, tags));
+    ck_assert_int_eq(tags[0] + tags[1], k < 2 ? 3 : 6);
+    ck_assert_int_eq(tags[2], tags[0]);
+  }
+  MUST(pnpbs_domain_regions_at(it.domain, 0, NULL, 1, NULL));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_regions_at(it.domain, -1, x, 1, tags), "n = -1",
+            "negative");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_regions_at(it.domain, 1, x, 0, tags), "columns",
+            "0");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_regions_at(it.domain, 1, NULL, 1, tags),
+            "coordinates", "NULL");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_regions_at(it.domain, 1, x, 1, NULL), "tags",
+            "NULL");
+  job_end(&it);
+}
+END_TEST
+
+/* A callback gets d from the region of a point. */
+static int32_t d_by_region(int64_t n, int32_t dim, const double* x, double* d, void* user) {
+  int64_t i;
+  for (i = 0; i < n; ++i) {
+    int32_t tags[2];
+    if (pnpbs_domain_regions_at(*(pnpbs_domain*)user, 1, x + dim * i, 2, tags) < 0) return 1;
+    d[i] = tags[0] == 2 || tags[1] == 2 ? 0.1 : 0.16;
+  }
+  return 0;
+}
+
+START_TEST(spacing_by_region) {
+  const double low[2][3] = {{0, 0, 0}, {1, 0, 0}}, high[2][3] = {{1, 1, 1}, {2, 1, 1}};
+  int64_t regions, counts[2];
+  int32_t tags[2];
+  double measures[2];
+  job it = {NULL, NULL, NULL};
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box(it.domain, low[0], high[0], 1));
+  MUST(pnpbs_domain_add_box(it.domain, low[1], high[1], 1));
+  MUST(pnpbs_domain_regions_at(it.domain, 0, NULL, 1, NULL));
+  job_place(&it);
+  MUST(pnpbs_placement_set_spacing_callback(it.placement, d_by_region, &it.domain));
+  ck_assert_int_ge(pnpbs_placement_run(it.placement), 0); /* d jumps, which nodes may not follow */
+  MUST(pnpbs_placement_get_regions(it.placement, 2, &regions, tags, NULL, counts, measures));
+  ck_assert_int_eq(regions, 2);
+  ck_assert_double_eq_tol(measures[0], 1, 1e-12);
+  ck_assert_double_eq_tol(measures[1], 1, 1e-12);
+  ck_assert_int_gt(counts[1],
+                   2 * counts[0]); /* (0.16 / 0.1)^3 is 4; beside the interface d grows */
   job_end(&it);
 }
 END_TEST
@@ -555,6 +669,9 @@ START_TEST(surfaces_alone_have_none) {
   it = placed(it, 0.4);
   MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_placement_get_element_tags(it.placement, 0, &count, NULL),
             "surfaces alone", "boundary_triangles");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT,
+            pnpbs_placement_get_regions(it.placement, 0, &count, NULL, NULL, NULL, NULL),
+            "surfaces alone", "boundary_triangles");
   job_end(&it);
 }
 END_TEST
@@ -564,6 +681,8 @@ TEST_SUITE(test_regions) {
   TCase* good = tcase_create("good");
   TCase* bad = tcase_create("bad");
   tcase_add_loop_test(good, strips_and_a_disc, 0, 2);
+  tcase_add_test(good, regions_at_points);
+  tcase_add_test(good, spacing_by_region);
   tcase_add_test(good, disc_that_d_does_not_resolve);
   tcase_add_test(good, ring_that_d_does_not_resolve);
   tcase_add_test(good, tags_stay_with_the_elements);

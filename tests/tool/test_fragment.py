@@ -9,7 +9,7 @@ import unittest
 import meshio
 import numpy
 
-from command import LEFT_OUT, CommandTest
+from command import DONE, LEFT_OUT, SPACING_MISSED, CommandTest
 
 
 def box(low, high):
@@ -67,6 +67,45 @@ class Fragment(CommandTest):
         for tag, name in enumerate(VOLUMES, 1):
             self.assertAlmostEqual(found[tag], VOLUMES[name], 12, name)
 
+    def test_figures_of_regions(self):
+        out, _ = self.run_command("--domain", self.model, "--fragment", "--spacing", 0.1,
+                                  "--output", "a.vtu", "--report", "a.json")
+        rows = json.loads((self.folder / "a.json").read_text())["by_region"]
+        mesh = meshio.read(self.folder / "a.vtu")
+        volumes = volumes_by_region(self.folder / "a.vtu")
+        tetrahedra, of = mesh.cells_dict["tetra"], mesh.cell_data_dict["region"]["tetra"]
+        self.assertEqual([(row["tag"], row["name"]) for row in rows],
+                         [(1, "left"), (2, "right"), (3, "bar")])
+        for row in rows:
+            inside = tetrahedra[of == row["tag"]]
+            self.assertEqual(row["elements"], len(inside))
+            self.assertEqual(row["nodes"], len(numpy.unique(inside)))
+            self.assertAlmostEqual(row["volume"], volumes[row["tag"]], 12)
+        lines = [line for line in out.decode().splitlines() if line.startswith("region ")]
+        self.assertEqual(len(lines), 3)
+        self.assertRegex(lines[2], r"region   3 'bar': [\d ]+ nodes, [\d ]+ elements, volume 0.11")
+
+    def test_spacing_by_region(self):
+        """In the bar and on its surface d is small. From there it grows by 0.3 per unit of distance
+        at most, from samples that are up to 0.15 apart."""
+        run = self.start("--domain", self.model, "--fragment", "--spacing",
+                         "region == 3 ? 0.05 : 0.15", "--output", "a.vtu", "--check")
+        run.communicate()
+        self.assertIn(run.returncode, (DONE, SPACING_MISSED))
+        mesh = meshio.read(self.folder / "a.vtu")
+        d, x = mesh.point_data["spacing"], mesh.points
+        low, high = numpy.array((0.4, 0.5, 0.3)), numpy.array((1.7, 0.8, 0.6))
+        away = numpy.linalg.norm(numpy.maximum(0, numpy.maximum(low - x, x - high)), axis=1)
+        self.assertGreater((away < 1e-9).sum(), 1000)
+        self.assertLess(abs(d[away < 1e-9] - 0.05).max(), 1e-9)
+        self.assertTrue((d <= 0.05 + 0.3 * (away + 0.15)).all())
+        self.assertGreater(d.max(), 0.14)
+
+    def test_spacing_by_region_needs_regions(self):
+        message = self.refuse("--domain", "box(0,0,0, 1,1,1)", "--spacing", "0.1 + 0*region")
+        self.assertIn("--spacing: region: no region of the domain has a tag", message)
+        self.assertIn("--region", message)
+
     def test_regions_have_the_names_of_groups(self):
         self.run_command("--domain", self.model, "--fragment", "--spacing", 0.1,
                          "--output", "a.msh")
@@ -79,9 +118,10 @@ class Fragment(CommandTest):
     def test_nodes_are_the_same_on_any_ranks(self):
         hashes = set()
         for ranks in (1, 2, 3):
-            self.run_on_ranks("--domain", self.model, "--fragment", "own", "--spacing", 0.12,
-                              "--report", "report.json", ranks=ranks)
-            hashes.add(json.loads((self.folder / "report.json").read_text())["hash"])
+            self.run_on_ranks("--domain", self.model, "--fragment", "own", "--spacing",
+                              "region == 3 ? 0.08 : 0.12", "--report", "report.json", ranks=ranks)
+            report = json.loads((self.folder / "report.json").read_text())
+            hashes.add((report["hash"], json.dumps(report["by_region"])))
         self.assertEqual(len(hashes), 1)
 
     def test_messages_name_the_option(self):

@@ -146,6 +146,13 @@ class PolygonRegions(CommandTest):
         names = {"arable": 1, "water": 2, "wood": 3}
         self.assertEqual({group["name"]: group["tag"] for group in report["groups"]}, names)
         self.assertEqual({group["dimension"] for group in report["groups"]}, {2})
+        rows = report["by_region"]
+        self.assertEqual({row["name"]: row["tag"] for row in rows}, names)
+        for row in rows:
+            inside = triangles[regions == row["tag"]]
+            self.assertEqual((row["elements"], row["nodes"]),
+                             (len(inside), len(numpy.unique(inside))))
+            self.assertAlmostEqual(row["area"], areas[row["tag"]], 12)
         groups = meshio.read(self.folder / "a.msh", file_format="gmsh").field_data
         self.assertEqual({name: tag for name, (tag, dimension) in groups.items() if dimension == 2},
                          names)

@@ -37,7 +37,7 @@ from .mesh_arrays import MeshArrays
 from .particles import Particles
 from .placement import Estimate, Placement, PopulationChange
 from .results import (CellBands, EdgeBands, Edges, ExchangePattern, Facets, Ghosts, Nodes,
-                      Numbering, Stars)
+                      Numbering, Regions, Stars)
 from .rows import CompressedRows
 from .shapes import (GeoGrid, NoteCode, NoteData, Projection, ShapeCounts, Shapes, depth_spacing,
                      geo_build_info)
@@ -51,7 +51,7 @@ __all__ = [
     "EdgeBands", "Edges", "ElementsWarning", "ErrorReason", "Estimate", "ExchangePattern",
     "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays", "Nodes", "NoteCode",
     "NoteData", "Numbering", "OptionRow", "Outline", "PNPBSError", "PNPBSWarning", "Particles", "Placement",
-    "PopulationChange", "Projection", "ShapeCounts", "Shapes", "SpacingWarning", "Stars",
+    "PopulationChange", "Projection", "Regions", "ShapeCounts", "Shapes", "SpacingWarning", "Stars",
     "StatisticRow", "Status", "Transfer", "VoronoiCells", "WarningCode", "WarningData",
     "build_info", "depth_spacing", "discard_unfinished_files", "file_dimension", "format_table",
     "geo_build_info", "library_path", "library_version", "mpi_library", "option_table",

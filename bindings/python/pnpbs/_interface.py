@@ -111,6 +111,8 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double *low, double *high)
 pnpbs_status pnpbs_domain_measure(pnpbs_domain domain, double *measure);
 pnpbs_status pnpbs_domain_distance(pnpbs_domain domain, int32_t tag, int64_t n,
     const double *coordinates, double *distances);
+pnpbs_status pnpbs_domain_regions_at(pnpbs_domain domain, int64_t n, const double *coordinates,
+    int32_t columns, int32_t *tags);
 pnpbs_status pnpbs_domain_shape_spacing(pnpbs_domain domain, double nodes_per_turn,
     double nodes_across, double nodes_per_edge, double growth, int64_t n,
     const double *coordinates, double *d);
@@ -213,6 +215,8 @@ pnpbs_status pnpbs_placement_get_string(pnpbs_placement placement, const char *k
 pnpbs_status pnpbs_placement_get_edge_bands(pnpbs_placement placement, int64_t capacity,
     int64_t *count, double *d_from, double *d_to, int64_t *edges, double *mean,
     double *deviation);
+pnpbs_status pnpbs_placement_get_regions(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int32_t *tags, int64_t *nodes, int64_t *elements, double *measures);
 pnpbs_status pnpbs_placement_get_cell_bands(pnpbs_placement placement, const char *measure,
     int64_t capacity, int64_t *count, double *d_from, double *d_to, int64_t *number, double *mean,
     double *worst);

@@ -602,6 +602,25 @@ class Domain(Handle):
         self._call("distance", tag, len(points), points, distances)
         return distances
 
+    def regions_at(self, coordinates: ArrayLike, columns: int = 1) -> Int32s:
+        """Returns the region tags at points of shape (n, dim) (`add_region`, `set_fragment`), for
+        use in a spacing callback: 0 where a region has no tag, and outside of the domain the tag of
+        the region behind the nearest point of the boundary. A point within 1e-6 of the size of the
+        domain from interfaces lies in the regions on both sides: use the least d of these, because
+        nodes on interfaces lie on one side or the other by rounding. If a callback queries regions,
+        query them once before the run. Raises `Status.ERROR_ARGUMENT` if no region of the domain
+        has a tag.
+
+        - `columns`: tags at each point.
+
+        Returns tags of shape (n, columns), for one column of shape (n,): first of the region that
+        contains the point, then of others at interfaces, and the first one again where there are
+        fewer."""
+        points = as_points(coordinates, self.dim, "coordinates")
+        tags = np.zeros((len(points), max(columns, 1)), np.int32)
+        self._call("regions_at", len(points), points, columns, tags)
+        return tags[:, 0] if columns == 1 else tags
+
     def shape_spacing(self, coordinates: ArrayLike, nodes_per_turn: float = 0.0,
                       nodes_across: float = 0.0, nodes_per_edge: float = 0.0,
                       growth: float = 0.0) -> Doubles:

@@ -139,6 +139,16 @@ class CellBands(NamedTuple):
     worst: Doubles
 
 
+class Regions(NamedTuple):
+    """The regions of a placement: their tags, numbers of nodes and of elements, and volumes or
+    areas."""
+
+    tags: Int32s
+    nodes: Ids
+    elements: Ids
+    measures: Doubles
+
+
 _Self = TypeVar("_Self", bound="Results")
 
 
@@ -450,6 +460,21 @@ class Results(PlacementHandle):
         bands = CellBands(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
         self._call("get_cell_bands", measure.encode(), n, ctypes.byref(count), *bands)
         return bands
+
+    def regions(self) -> Regions:
+        """Measures the regions of the domain by the tags of their elements (`element_tags`), also
+        the elements without a tag if there are any. Returns for each tag the number of nodes of
+        these elements, the number of elements, and their volume, in the plane their area. Nodes of
+        an interface are in several regions. The result includes all ranks and is the same on each,
+        with the same bits for any number of them. Raises `Status.ERROR_ARGUMENT` on surfaces alone.
+        Collective."""
+        count = ctypes.c_int64()
+        self._call("get_regions", 0, ctypes.byref(count), *[None] * 4)
+        n = count.value
+        regions = Regions(np.zeros(n, np.int32), np.zeros(n, np.int64), np.zeros(n, np.int64),
+                          np.zeros(n))
+        self._call("get_regions", n, ctypes.byref(count), *regions)
+        return regions
 
     def warnings(self) -> List[str]:
         """Returns the messages of warnings about domain and spacing, and, from the last run, about

@@ -346,6 +346,11 @@ pnpbs_domain_distance(domain, tag, n, coordinates, distances) =
         domain::pnpbs_domain, tag::Int32, n::Int64, coordinates::Ptr{Cdouble},
         distances::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_domain_regions_at(domain, n, coordinates, columns, tags) =
+    @ccall $(symbol(:pnpbs_domain_regions_at))(
+        domain::pnpbs_domain, n::Int64, coordinates::Ptr{Cdouble}, columns::Int32,
+        tags::Ptr{Int32})::pnpbs_status
+
 pnpbs_domain_shape_spacing(domain, nodes_per_turn, nodes_across, nodes_per_edge, growth, n,
                            coordinates, d) =
     @ccall $(symbol(:pnpbs_domain_shape_spacing))(
@@ -611,6 +616,11 @@ pnpbs_placement_get_edge_bands(placement, capacity, count, d_from, d_to, edges, 
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, d_from::Ptr{Cdouble},
         d_to::Ptr{Cdouble}, edges::Ptr{Int64}, mean::Ptr{Cdouble},
         deviation::Ptr{Cdouble})::pnpbs_status
+
+pnpbs_placement_get_regions(placement, capacity, count, tags, nodes, elements, measures) =
+    @ccall $(symbol(:pnpbs_placement_get_regions))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, tags::Ptr{Int32},
+        nodes::Ptr{Int64}, elements::Ptr{Int64}, measures::Ptr{Cdouble})::pnpbs_status
 
 pnpbs_placement_get_cell_bands(placement, measure, capacity, count, d_from, d_to, number, mean,
                                worst) =

@@ -44,6 +44,7 @@ export set_filled!, set_repair!, set_resurfaced!, set_fragment!
 export tag_outline!, set_corner_angle!, set_snap!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline
+export regions_at
 export estimate, initialise!, run!, step!, adjust_population!, rebalance!
 export node_count, nodes, nodes!, normals, ghost_count, ghosts, ghosts!
 export exchange_pattern, numbering, reinterpret_columns
@@ -53,7 +54,7 @@ export Transfer, at_nodes, at_points, linear_nodes
 export DistributedMesh, write_mesh, VoronoiCells, Particles
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
 export edges, find_edges, element_tags, boundary_edges, boundary_triangles, check_results
-export statistic, statistics, edge_bands, cell_bands, warnings, warning_data, write_file, write_files
+export statistic, statistics, edge_bands, cell_bands, regions, warnings, warning_data, write_file, write_files
 export add_output_field, clear_output_fields
 export write_checkpoint, read_checkpoint!
 export Shapes, add_shapes!, shape_counts, projection, notes, write_prj, to_degrees, from_degrees

@@ -754,6 +754,25 @@ function distances(domain::Domain, x::AbstractMatrix{<:Real}; tag::Integer = 0)
 end
 
 """
+    regions_at(domain, x; rows = 1) -> Matrix{Int32}
+
+Returns the region tags at points, the columns of `x` ([`add_region!`](@ref),
+[`set_fragment!`](@ref)), for use in a spacing function: 0 where a region has no tag, and outside of
+the domain the tag of the region behind the nearest point of the boundary. A point within 1e-6 of
+the size of the domain from interfaces lies in the regions on both sides: use the least d of these,
+because nodes on interfaces lie on one side or the other by rounding. A column has first the tag of
+the region that contains the point, then others at interfaces, and the first one again where there
+are fewer. If a callback queries regions, query them once before the run. Throws `:error_argument`
+if no region of the domain has a tag.
+"""
+function regions_at(domain::Domain, x::AbstractMatrix{<:Real}; rows::Integer = 1)
+    tags = zeros(Int32, max(rows, 1), size(x, 2))
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_regions_at(live(domain), size(x, 2), places(domain, x), rows, tags))
+    return tags
+end
+
+"""
     shape_spacing(domain, x; nodes_per_turn = 0, nodes_across = 0, nodes_per_edge = 0,
                   growth = 0) -> Vector{Float64}
 

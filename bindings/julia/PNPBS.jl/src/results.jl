@@ -388,6 +388,27 @@ function edge_bands(placement::Placement)
 end
 
 """
+    regions(placement) -> (tags, nodes, elements, measures)
+
+Measures the regions of the domain by the tags of their elements ([`element_tags`](@ref)), also the
+elements without a tag if there are any. Returns for each tag the number of nodes of these elements,
+the number of elements, and their volume, in the plane their area. Nodes of an interface are in
+several regions. The result includes all ranks and is the same on each, with the same bits for any
+number of them. Throws `:error_argument` on surfaces alone. Collective.
+"""
+function regions(placement::Placement)
+    count = Ref{Int64}(0)
+    get(n, arrays...) = check(placement, LibPNPBS.pnpbs_placement_get_regions(live(placement), n,
+                                                                              count, arrays...))
+    get(0, C_NULL, C_NULL, C_NULL, C_NULL)
+    n = count[]
+    tags, measures = zeros(Int32, n), zeros(n)
+    nodes, elements = zeros(Int64, n), zeros(Int64, n)
+    get(n, tags, nodes, elements, measures)
+    return (tags = tags, nodes = nodes, elements = elements, measures = measures)
+end
+
+"""
     cell_bands(placement, measure) -> (d_from, d_to, number, mean, worst)
 
 Measures the Voronoi cells of the nodes as finite volumes need them, by bands of d, in the plane and

@@ -81,6 +81,10 @@ end
         check_mesh(mesh, 0)
         @test all(mesh.element_tags .== 4)
         @test element_tags(placement) == fill(4, size(tetrahedra(placement), 2))
+        found = regions(placement)
+        @test found.tags == [4] && found.nodes == [mesh.all_nodes]
+        @test found.elements == [size(mesh.elements, 2)] && found.measures ≈ [2]
+        @test regions_at(box, [0.1 1.9; 0.1 0.9; 0.1 0.9]) == [4 4]
         @test size(mesh.elements, 1) == 4 && sum(measures(mesh)) ≈ 2
         @test mesh.facet_inner == (mesh.facet_tags .== 6) && any(mesh.facet_inner)
         # They are counter-clockwise as seen from outside, so together they enclose the box.
