@@ -222,6 +222,12 @@ module pnpbs
     procedure :: edge_count => placement_edge_count
     procedure :: get_edges => placement_get_edges
     procedure :: find_edges => placement_find_edges
+    procedure :: set_cracks => placement_set_cracks
+    procedure :: crack_node_count => placement_crack_node_count
+    procedure :: get_crack_nodes => placement_get_crack_nodes
+    procedure :: get_cracked_elements => placement_get_cracked_elements
+    procedure :: crack_facet_count => placement_crack_facet_count
+    procedure :: get_crack_facets => placement_get_crack_facets
     procedure :: boundary_triangle_count => placement_boundary_triangle_count
     procedure :: get_boundary_triangles => placement_get_boundary_triangles
     procedure :: boundary_edge_count => placement_boundary_edge_count
@@ -2667,6 +2673,156 @@ contains
       call count_from_one(elements(:, t))
     end do
   end subroutine
+
+  !> Sets which inner curves, in space inner surfaces, are cracks: those with these tags. Then
+  !> get_cracked_elements and files of elements in .msh, .msh2, .vtu and .vtkhdf have elements that
+  !> share no node across a crack; other formats of elements are an error, and all other results
+  !> are unchanged. The elements around a node fall into sectors that cracks separate. One of them
+  !> keeps the node, along a crack that on the left of a curve or in front of a surface, and each
+  !> other one gets a copy of it. At the tip of a crack there is no copy. Local, with the same tags
+  !> on all ranks. Errors: PNPBS_ERROR_ARGUMENT for the tag 0.
+  !>   tags  (n); n = 0: no cracks
+  subroutine placement_set_cracks(self, tags, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int32_t), intent(in) :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    call conclude('placement%set_cracks', &
+                  c_placement_set_cracks(self%c, size(tags, kind=c_int32_t), tags), &
+                  stat, errmsg)
+  end subroutine
+
+  !> Returns the number of copies that get_crack_nodes returns. Collective.
+  !>   all  optional: number of copies of all ranks
+  subroutine placement_crack_node_count(self, count, all, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int64_t), intent(out), optional :: all
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: copies
+    count = 0
+    copies = 0
+    call conclude('placement%crack_node_count', &
+                  c_placement_get_crack_nodes(self%c, 0_c_int64_t, count, copies, c_null_ptr, &
+                                              c_null_ptr), stat, errmsg)
+    if (present(all)) all = copies
+  end subroutine
+
+  !> Copies the pairs of nodes on cracks: copies of this rank's nodes, and then copies of ghosts that
+  !> its elements refer to. Copy k of this list has the local index nodes + ghosts + k, and
+  !> position, tag and spacing of its original. Collective. Errors: PNPBS_ERROR_ARGUMENT if no inner
+  !> curve or surface has one of the tags of set_cracks, and on surfaces alone; PNPBS_ERROR_CAPACITY.
+  !>   nodes    optional, (count): local indices of the originals
+  !>   numbers  optional, (count): 0, 1, ... over all ranks, in the order of the ids of the originals
+  subroutine placement_get_crack_nodes(self, nodes, numbers, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout), optional :: nodes(:), numbers(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_nodes, a_numbers
+    integer(c_int64_t) :: room(2), count, all
+    integer(c_int) :: status
+    call given%place_int64('nodes', nodes, a_nodes, room(1))
+    call given%place_int64('numbers', numbers, a_numbers, room(2))
+    status = c_placement_get_crack_nodes(self%c, given%capacity(minval(room)), count, all, a_nodes, &
+                                         a_numbers)
+    call conclude('placement%get_crack_nodes', status, stat, errmsg, given)
+    if (status < 0) return
+    if (present(nodes)) call count_from_one(nodes(:count))
+  end subroutine
+
+  !> Copies the elements with doubled nodes along cracks (set_cracks): triangles in the plane,
+  !> tetrahedra in space, in the order of get_triangles and get_tetrahedra, which is also that of
+  !> get_element_tags. Collective. Errors: as get_crack_nodes.
+  !>   elements  (3 or 4, count) local indices, those behind all nodes and ghosts of copies; as many
+  !>             as triangle_count or tetrahedron_count returns
+  subroutine placement_get_cracked_elements(self, elements, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout) :: elements(:,:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_elements
+    integer(c_int64_t) :: room, count, t
+    integer(c_int) :: status
+    integer :: dim
+    dim = dimension_filled(self)
+    call given%place_int64_columns('elements', elements, dim + 1, a_elements, room)
+    status = c_placement_get_cracked_elements(self%c, given%capacity(room), count, a_elements)
+    call conclude('placement%get_cracked_elements', status, stat, errmsg, given)
+    if (status < 0) return
+    do t = 1, count
+      call count_from_one(elements(:, t))
+    end do
+  end subroutine
+
+  !> Returns the number of facets that get_crack_facets returns. Collective.
+  !>   covered  optional: the area of the facets of all ranks over that of the surfaces, 1 in the
+  !>            plane. Where d is too coarse for elements to follow a surface, facets are missing,
+  !>            and elements connect its two sides there
+  subroutine placement_crack_facet_count(self, count, covered, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(out) :: count
+    real(c_double), intent(out), optional :: covered
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: share
+    count = 0
+    share = 0
+    call conclude('placement%crack_facet_count', &
+                  c_placement_get_crack_facets(self%c, 0_c_int64_t, count, share, c_null_ptr, &
+                                               c_null_ptr, c_null_ptr), stat, errmsg)
+    if (present(covered)) covered = share
+  end subroutine
+
+  !> Copies both sides of the facets of cracks, edges in the plane and triangles in space. The nodes
+  !> of the sides coincide in pairs and are different except at tips. Collective. Errors: as
+  !> get_crack_nodes.
+  !>   front  optional, (2 or 3, count): local indices, on the left of a curve from the first to the
+  !>          second node, or in front of a surface, from where the corners are counter-clockwise
+  !>   back   optional, likewise: the same nodes on the other side
+  !>   tags   optional, (count)
+  subroutine placement_get_crack_facets(self, front, back, tags, stat, errmsg)
+    class(pnpbs_placement), intent(in) :: self
+    integer(c_int64_t), intent(inout), optional :: front(:,:), back(:,:)
+    integer(c_int32_t), intent(inout), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_front, a_back, a_tags
+    integer(c_int64_t) :: room(3), count, f
+    real(c_double) :: covered
+    integer(c_int) :: status
+    integer :: dim
+    dim = dimension_filled(self)
+    call given%place_int64_columns('front', front, dim, a_front, room(1))
+    call given%place_int64_columns('back', back, dim, a_back, room(2))
+    call given%place_int32('tags', tags, a_tags, room(3))
+    status = c_placement_get_crack_facets(self%c, given%capacity(minval(room)), count, covered, &
+                                          a_front, a_back, a_tags)
+    call conclude('placement%get_crack_facets', status, stat, errmsg, given)
+    if (status < 0) return
+    do f = 1, count
+      if (present(front)) call count_from_one(front(:, f))
+      if (present(back)) call count_from_one(back(:, f))
+    end do
+  end subroutine
+
+  !> Returns the dimension of what the nodes fill, which is 2 on a sphere.
+  function dimension_filled(self) result(dim)
+    class(pnpbs_placement), intent(in) :: self
+    integer :: dim
+    integer(c_int32_t) :: coordinates
+    integer(c_int) :: status
+    real(c_double) :: radius
+    coordinates = 2
+    radius = 0
+    status = c_placement_dimension(self%c, coordinates)
+    status = c_placement_sphere_radius(self%c, radius)
+    dim = merge(2, int(coordinates), radius > 0)
+  end function
 
   !> Returns the number of edges that get_edges returns. Collective.
   !>   straight  optional: edges of all ranks that are straight lest an element folds

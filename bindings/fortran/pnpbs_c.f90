@@ -1298,6 +1298,52 @@ module pnpbs_c
       integer(c_int) :: c_placement_find_edges
     end function
 
+    function c_placement_set_cracks(placement, n, tags) bind(C, name="pnpbs_placement_set_cracks")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int32_t), value :: n
+      integer(c_int32_t), intent(in) :: tags(*)
+      integer(c_int) :: c_placement_set_cracks
+    end function
+
+    function c_placement_get_crack_nodes(placement, capacity, count, all, nodes, numbers) bind(C, &
+      name="pnpbs_placement_get_crack_nodes")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count, all
+      type(c_ptr), value :: nodes ! int64_t *
+      type(c_ptr), value :: numbers ! int64_t *
+      integer(c_int) :: c_placement_get_crack_nodes
+    end function
+
+    function c_placement_get_cracked_elements(placement, capacity, count, elements) bind(C, &
+      name="pnpbs_placement_get_cracked_elements")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), value :: elements ! int64_t *
+      integer(c_int) :: c_placement_get_cracked_elements
+    end function
+
+    function c_placement_get_crack_facets(placement, capacity, count, covered, front, back, tags) &
+      bind(C, name="pnpbs_placement_get_crack_facets")
+      import
+      implicit none
+      type(c_ptr), value :: placement
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: count
+      real(c_double), intent(out) :: covered
+      type(c_ptr), value :: front ! int64_t *
+      type(c_ptr), value :: back ! int64_t *
+      type(c_ptr), value :: tags ! int32_t *
+      integer(c_int) :: c_placement_get_crack_facets
+    end function
+
     function c_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) &
       bind(C, name="pnpbs_placement_get_boundary_triangles")
       import

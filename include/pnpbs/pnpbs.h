@@ -1240,6 +1240,67 @@ PNPBS_API pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int
                                                   int32_t corners, const int64_t *cells,
                                                   int64_t *edges);
 
+/** Sets which inner curves, in space inner surfaces, are cracks: those with these tags, except
+ * where they bound the domain. pnpbs_placement_get_cracked_elements and the next functions return
+ *  elements that share no node across a crack, as fracture mechanics and elements without thickness
+ *  require, and so do files of elements written from now on in .msh, .msh2, .vtu and .vtkhdf; other
+ *  formats, pieces and elements of second order are PNPBS_ERROR_ARGUMENT then. All other results
+ *  are unchanged. The elements around a node fall into sectors that cracks separate. One sector
+ *  keeps the node, along a crack that on the left of a curve or in front of a surface, and each
+ *  other one gets a copy of it. So a node inside a crack, or where it meets the boundary, has one
+ *  copy; where n cracks cross, it has 2 n - 1; and at the tip it has none. A crack must be at least
+ *  two facets long to open. Local, with the same tags on all ranks. Errors: PNPBS_ERROR_ARGUMENT
+ *  for the tag 0.
+ *  @param[in] n     0: no cracks
+ *  @param[in] tags  [n] */
+PNPBS_API pnpbs_status pnpbs_placement_set_cracks(pnpbs_placement placement, int32_t n,
+                                                  const int32_t *tags);
+
+/** Copies the pairs of nodes on cracks: copies of this rank's nodes, and then copies of ghosts that
+ *  its elements refer to. Copy k of this list has the local index nodes + ghosts + k, and position,
+ *  tag and spacing of its original. Numbers do not depend on ranks. Collective. Call with capacity
+ *  0 to get the count; arrays may be NULL. Errors: PNPBS_ERROR_ARGUMENT if no inner curve or
+ * surface has one of the tags, if they differ between ranks, and on surfaces alone;
+ * PNPBS_ERROR_CAPACITY.
+ *  @param[in] capacity  copies the arrays have room for
+ *  @param[out] count    number of copies
+ *  @param[out] all      number of copies of all ranks, each counted once; may be NULL
+ *  @param[out] nodes    [count] local indices of the originals
+ *  @param[out] numbers  [count] 0, 1, ... over all ranks, in the order of the ids of the originals
+ */
+PNPBS_API pnpbs_status pnpbs_placement_get_crack_nodes(pnpbs_placement placement, int64_t capacity,
+                                                       int64_t *count, int64_t *all, int64_t *nodes,
+                                                       int64_t *numbers);
+
+/** Copies the elements with doubled nodes along cracks: triangles in the plane, tetrahedra in
+ * space, in the order of pnpbs_placement_get_triangles and pnpbs_placement_get_tetrahedra, which is
+ * also that of pnpbs_placement_get_element_tags. Collective. Call with capacity 0 to get the count.
+ *  Errors: as there and pnpbs_placement_get_crack_nodes.
+ *  @param[out] elements  [count][3 or 4] local indices, those from nodes + ghosts on of copies; or
+ *                        NULL */
+PNPBS_API pnpbs_status pnpbs_placement_get_cracked_elements(pnpbs_placement placement,
+                                                            int64_t capacity, int64_t *count,
+                                                            int64_t *elements);
+
+/** Copies both sides of the facets of cracks, edges in the plane and triangles in space. Their
+ * nodes coincide in pairs and are different except at tips, so a facet is an element without
+ * thickness. A facet belongs to the rank that pnpbs_placement_get_boundary_edges, in space the rule
+ * of pnpbs_placement_get_boundary_triangles, assigns it to. Collective. Call with capacity 0 to get
+ *  the count; arrays may be NULL. Errors: as pnpbs_placement_get_crack_nodes.
+ *  @param[out] count    number of facets
+ *  @param[out] covered  the area of the facets of all ranks over that of the surfaces, 1 in the
+ *                       plane. Where d is too coarse for elements to follow a surface, facets are
+ *                       missing, and elements connect its two sides there. May be NULL
+ *  @param[out] front    [count][2 or 3] local indices, on the left of a curve from the first to the
+ *                       second node, in front of a surface, from where the corners are
+ *                       counter-clockwise
+ *  @param[out] back     [count][2 or 3] of the same nodes on the other side
+ *  @param[out] tags     [count] */
+PNPBS_API pnpbs_status pnpbs_placement_get_crack_facets(pnpbs_placement placement, int64_t capacity,
+                                                        int64_t *count, double *covered,
+                                                        int64_t *front, int64_t *back,
+                                                        int32_t *tags);
+
 /** Copies the boundary triangles of a placement in space: the faces that belong to one tetrahedron
  *  only, counter-clockwise as seen from outside. On surfaces alone, they are the triangles between
  *  the nodes, counter-clockwise as seen from the side that the surface's normal points to. On
@@ -1835,7 +1896,10 @@ PNPBS_API pnpbs_status pnpbs_particles_write(pnpbs_particles particles, int32_t 
  *  @param[in] elements  nonzero: triangles or tetrahedra (and the boundary) as well; 2: of second
  *                       order, with the mid nodes of pnpbs_placement_get_edges after the nodes, in
  *                       .msh, .msh2, .vtu and .vtkhdf. Mid nodes have the smallest tag of the
- *                       facets there, or 0; the mean of d and of fields at both ends; and the id -1
+ *                       facets there, or 0; the mean of d and of fields at both ends; and the id
+ *                       -1. With cracks (pnpbs_placement_set_cracks) copies of nodes follow the
+ *                       nodes, in the order of their numbers, with the id of their originals, and
+ *                       there is a facet on each side of a crack
  */
 PNPBS_API pnpbs_status pnpbs_placement_write(pnpbs_placement placement, const char *path,
                                              int32_t elements);

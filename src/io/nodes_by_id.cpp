@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/index.hpp"
 #include "base/leading_count.hpp"
 #include "comm/records.hpp"
 #include "io/rows.hpp"
@@ -29,33 +30,33 @@ struct FieldValue {
   double value;
 };
 
-// A mid node, and a component of a field at it.
-struct MidRow {
-  std::int64_t number;
+// A mid node or a copy of a node, and a component of a field at it.
+struct AddedRow {
+  std::int64_t number, id;
   Point<3> x;
   double d;
   std::int32_t tag, region;
 };
 
-struct MidFieldValue {
+struct AddedFieldValue {
   std::int64_t number, component;
   double value;
 };
 
 // An element. Its corners are given by labels, see NodesById::label(), and its mid nodes by their
-// numbers in the file.
-template <int Dim, std::size_t mid_count>
+// numbers in the file. With cracks, the number of a copy or -1 is given for each corner instead.
+template <int Dim, std::size_t added_count>
 struct ElementRow {
   std::array<std::int64_t, Dim + 1> corners;  // smallest label first
-  std::array<std::int64_t, mid_count> mids;
+  std::array<std::int64_t, added_count> added;
   float quality;
   std::int32_t region;
 };
 
-template <int Dim, std::size_t mid_count>
+template <int Dim, std::size_t added_count>
 struct FacetRow {
   std::array<std::int64_t, Dim> corners;  // smallest label first in space
-  std::array<std::int64_t, mid_count> mids;
+  std::array<std::int64_t, added_count> added;
   std::int32_t tag;
   float quality;
   Side domain;  // in the plane only
@@ -87,15 +88,15 @@ NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, int coordinates, bool with
   return sorted;
 }
 
-// Returns the rows with their corners, and appends their mid nodes.
+// Returns the rows with their corners, and appends their mid nodes or copies.
 template <int Dim, std::size_t n>
 ElementRows sorted_elements(std::vector<ElementRow<Dim, n>> rows, bool with_regions,
-                            std::vector<std::int64_t>& mids) {
+                            std::vector<std::int64_t>& added) {
   std::ranges::sort(rows, {}, &ElementRow<Dim, n>::corners);
   ElementRows sorted;
   for (const ElementRow<Dim, n>& row : rows) {
     sorted.nodes.insert(sorted.nodes.end(), row.corners.begin(), row.corners.end());
-    mids.insert(mids.end(), row.mids.begin(), row.mids.end());
+    added.insert(added.end(), row.added.begin(), row.added.end());
     sorted.quality.push_back(row.quality);
     if (with_regions) sorted.regions.push_back(row.region);
   }
@@ -103,13 +104,13 @@ ElementRows sorted_elements(std::vector<ElementRow<Dim, n>> rows, bool with_regi
 }
 
 template <int Dim, std::size_t n>
-FacetRows sorted_facets(std::vector<FacetRow<Dim, n>> rows, std::vector<std::int64_t>& mids) {
-  std::ranges::sort(rows, {},
-                    [](const FacetRow<Dim, n>& f) { return std::tuple(f.corners, f.tag); });
+FacetRows sorted_facets(std::vector<FacetRow<Dim, n>> rows, std::vector<std::int64_t>& added) {
+  std::ranges::sort(
+      rows, {}, [](const FacetRow<Dim, n>& f) { return std::tuple(f.corners, f.tag, f.added); });
   FacetRows sorted;
   for (const FacetRow<Dim, n>& row : rows) {
     sorted.nodes.insert(sorted.nodes.end(), row.corners.begin(), row.corners.end());
-    mids.insert(mids.end(), row.mids.begin(), row.mids.end());
+    added.insert(added.end(), row.added.begin(), row.added.end());
     sorted.tags.push_back(row.tag);
     sorted.quality.push_back(row.quality);
     if constexpr (Dim == 2) sorted.domain.push_back(row.domain);
@@ -125,6 +126,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, int order, const std::vector<Ou
   const bool elements = order > 0;
   prepare(results, elements);
   if (order == 2) mid_nodes_ = &results.mid_nodes();
+  if (elements && !results.crack_tags().empty()) cracks_ = &results.cracks();
   owned_ = results.count();
   contents_.dimension = Dim;
   contents_.coordinates = results.coordinates();
@@ -140,24 +142,35 @@ NodesById<Dim>::NodesById(Results<Dim>& results, int order, const std::vector<Ou
     results.for_elements([&](const auto&) { ++counts[1]; });
     results.for_facets_without_tags([&](const auto&) { ++counts[2]; });
   }
+  if (cracks_) counts[2] += std::ranges::count_if(cracks_->facets(), &CrackFacet<Dim>::is_open);
   comm_.allreduce_sum(counts);
   node_count_ = contents_.nodes = counts[0];
   contents_.elements = counts[1];
   contents_.facets = counts[2];
-  if (mid_nodes_) {
-    contents_.order = 2;
-    contents_.nodes += mid_nodes_->all();
-    const std::vector<MidNode>& mids = mid_nodes_->nodes();
-    for (std::size_t e = 0; e < mids.size(); ++e)
-      if (mids[e].first) own_mids_.push_back(e);
-    std::ranges::sort(own_mids_, {}, [&](std::size_t e) { return mids[e].number; });
-  }
+  list_added_nodes();
   if (comm_.size() == 1) return;
   const NodeArray<std::int64_t>& id = results.level().nodes.id;
   blocks_.emplace(comm_, owned_, [&](std::int64_t place) { return id(results.node_at(place)); });
   std::vector<std::int64_t> numbers;
   for (std::int64_t number = 0; number < node_count_; number += kWindow) numbers.push_back(number);
   bounds_ = blocks_->ids_at(numbers);
+}
+
+template <int Dim>
+void NodesById<Dim>::list_added_nodes() {
+  if (mid_nodes_) {
+    contents_.order = 2;
+    contents_.nodes += mid_nodes_->all();
+    const std::vector<MidNode>& mids = mid_nodes_->nodes();
+    for (std::size_t e = 0; e < mids.size(); ++e)
+      if (mids[e].first) own_added_.push_back({mids[e].number, e});
+    std::ranges::sort(own_added_, {}, &Added::number);
+  }
+  if (cracks_) {
+    contents_.nodes += cracks_->all();
+    for (std::int64_t k = 0; k < cracks_->owned(); ++k)
+      own_added_.push_back({cracks_->copies()[index(k)].number, index(k)});
+  }
 }
 
 // ------------------------------------------------------------------ windows --------------------
@@ -212,26 +225,25 @@ void NodesById<Dim>::label_by_numbers(std::vector<std::int64_t>& labels) const {
   if (blocks_) labels = blocks_->numbers_of(labels);
 }
 
-// Calls visit(first number, rows) for this rank's part of each window of mid nodes, which has the
-// kWindow numbers from the first one. rows_of(mid node, rows) appends the rows of a mid node.
+// Calls visit(first number, rows) for this rank's part of each window of added nodes, which has the
+// kWindow numbers from the first one. rows_of(added node, rows) appends the rows of such a node.
 // Collective.
 template <int Dim>
 template <class Row, class RowsOf, class Visit>
-void NodesById<Dim>::for_mid_windows(const RowsOf& rows_of, const Visit& visit) const {
-  if (!mid_nodes_) return;
-  auto next = own_mids_.begin();
-  for (std::int64_t begin = 0; begin < mid_nodes_->all(); begin += kWindow * comm_.size()) {
+void NodesById<Dim>::for_added_windows(const RowsOf& rows_of, const Visit& visit) const {
+  const std::int64_t all = contents_.nodes - node_count_;
+  auto next = own_added_.begin();
+  for (std::int64_t begin = 0; begin < all; begin += kWindow * comm_.size()) {
     std::vector<Row> rows;
-    for (; next != own_mids_.end(); ++next) {
-      const MidNode& mid = mid_nodes_->nodes()[*next];
-      if (mid.number >= begin + kWindow * comm_.size()) break;
-      rows_of(mid, rows);
+    for (; next != own_added_.end(); ++next) {
+      if (next->number >= begin + kWindow * comm_.size()) break;
+      rows_of(*next, rows);
     }
     if (blocks_)
       rows = redistribute<Row>(comm_, rows, [&](const Row& row) {
         return static_cast<int>((row.number - begin) / kWindow);
       });
-    visit(std::min(begin + kWindow * comm_.rank(), mid_nodes_->all()), std::move(rows));
+    visit(std::min(begin + kWindow * comm_.rank(), all), std::move(rows));
   }
 }
 
@@ -251,21 +263,28 @@ void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit
     rows.first = window.first;
     visit(rows);
   });
-  const auto row_of = [&](const MidNode& mid, std::vector<MidRow>& rows) {
+  const auto row_of = [&](const Added& added, std::vector<AddedRow>& rows) {
+    if (cracks_) {
+      const std::int64_t i = results_.node_at(cracks_->copies()[added.index].node);
+      const NodeRow<Dim> row = node_row<Dim>(results_, i, region_of_ ? region_of_->at_node(i) : 0);
+      rows.push_back({added.number, row.id, row.x, row.d, row.tag, row.region});
+      return;
+    }
+    const MidNode& mid = mid_nodes_->nodes()[added.index];
     const double d = 0.5 * (results_.spacing_at(results_.node_at(mid.ends[0])) +
                             results_.spacing_at(results_.node_at(mid.ends[1])));
-    rows.push_back({mid.number, mid.x, d, mid.tag, mid.region});
+    rows.push_back({added.number, -1, mid.x, d, mid.tag, mid.region});
   };
-  for_mid_windows<MidRow>(row_of, [&](std::int64_t first, std::vector<MidRow> mids) {
-    std::ranges::sort(mids, {}, &MidRow::number);
+  for_added_windows<AddedRow>(row_of, [&](std::int64_t first, std::vector<AddedRow> added) {
+    std::ranges::sort(added, {}, &AddedRow::number);
     NodeRows rows;
     rows.first = node_count_ + first;
-    for (const MidRow& mid : mids) {
-      rows.ids.push_back(-1);
-      rows.x.insert(rows.x.end(), mid.x.begin(), mid.x.begin() + contents_.coordinates);
-      rows.spacing.push_back(mid.d);
-      rows.tags.push_back(mid.tag);
-      if (region_of_) rows.regions.push_back(mid.region);
+    for (const AddedRow& one : added) {
+      rows.ids.push_back(one.id);
+      rows.x.insert(rows.x.end(), one.x.begin(), one.x.begin() + contents_.coordinates);
+      rows.spacing.push_back(one.d);
+      rows.tags.push_back(one.tag);
+      if (region_of_) rows.regions.push_back(one.region);
     }
     visit(rows);
   });
@@ -289,54 +308,103 @@ void NodesById<Dim>::for_field(std::size_t field,
     for (const FieldValue& value : values) rows.values.push_back(value.value);
     visit(rows);
   });
-  const auto rows_of = [&](const MidNode& mid, std::vector<MidFieldValue>& rows) {
+  const auto rows_of = [&](const Added& added, std::vector<AddedFieldValue>& rows) {
     for (std::int64_t c = 0; c < of.components; ++c) {
-      const auto at_end = [&](std::size_t end) {
-        return of.values[static_cast<std::size_t>(mid.ends[end] * of.components + c)];
+      const auto at = [&](std::int64_t place) {
+        return of.values[static_cast<std::size_t>(place * of.components + c)];
       };
-      rows.push_back({mid.number, c, 0.5 * (at_end(0) + at_end(1))});
+      if (cracks_) {
+        rows.push_back({added.number, c, at(cracks_->copies()[added.index].node)});
+      } else {
+        const MidNode& mid = mid_nodes_->nodes()[added.index];
+        rows.push_back({added.number, c, 0.5 * (at(mid.ends[0]) + at(mid.ends[1]))});
+      }
     }
   };
-  for_mid_windows<MidFieldValue>(
-      rows_of, [&](std::int64_t first, std::vector<MidFieldValue> values) {
-        std::ranges::sort(values, {},
-                          [](const MidFieldValue& v) { return std::pair(v.number, v.component); });
+  for_added_windows<AddedFieldValue>(
+      rows_of, [&](std::int64_t first, std::vector<AddedFieldValue> values) {
+        std::ranges::sort(
+            values, {}, [](const AddedFieldValue& v) { return std::pair(v.number, v.component); });
         FieldRows rows;
         rows.first = node_count_ + first;
-        for (const MidFieldValue& value : values) rows.values.push_back(value.value);
+        for (const AddedFieldValue& value : values) rows.values.push_back(value.value);
         visit(rows);
       });
 }
 
-// Returns the numbers of the mid nodes of an element or facet in the file.
+// Returns the numbers of the mid nodes of an element or facet in the file, or those of the copies
+// at the corners of an element, -1 for originals.
 template <int Dim>
-template <std::size_t mids, std::size_t corners>
-std::array<std::int64_t, mids> NodesById<Dim>::mids_of(
+template <std::size_t added, std::size_t corners>
+std::array<std::int64_t, added> NodesById<Dim>::added_to(
     const std::array<std::int64_t, corners>& places) const {
-  std::array<std::int64_t, mids> numbers{};
-  if constexpr (mids > 0) {
-    numbers = mid_nodes_->of(places);
-    for (std::int64_t& number : numbers)
-      number = node_count_ + mid_nodes_->nodes()[static_cast<std::size_t>(number)].number;
-  }
+  std::array<std::int64_t, added> numbers;
+  numbers.fill(-1);
+  if constexpr (added == edges_of(corners))
+    if (mid_nodes_) {
+      numbers = mid_nodes_->of(places);
+      for (std::int64_t& number : numbers)
+        number = node_count_ + mid_nodes_->nodes()[index(number)].number;
+    }
+  if constexpr (added == corners && corners == Dim + 1)
+    if (cracks_) numbers = copies_numbered(cracks_->copies_in(places));
   return numbers;
 }
 
-// Replaces the labels of corners by numbers, inserts the mid nodes of each row after its corners,
-// and numbers the rows after those of earlier windows. Collective.
+// Returns the numbers in the file of copies, given by their indices.
+template <int Dim>
+template <std::size_t n>
+std::array<std::int64_t, n> NodesById<Dim>::copies_numbered(
+    std::array<std::int64_t, n> copies) const {
+  for (std::int64_t& copy : copies)
+    if (copy >= 0) copy = node_count_ + cracks_->copies()[index(copy)].number;
+  return copies;
+}
+
+// Appends a row for a facet, or one for each side of a crack, where it bounds the elements.
+template <int Dim>
+template <class Row>
+void NodesById<Dim>::add_facet(const std::array<std::int64_t, Dim>& places, Row row,
+                               std::vector<Row>& rows) const {
+  const CrackFacet<Dim>* const facet = cracks_ ? cracks_->facet(places) : nullptr;
+  if constexpr (std::tuple_size_v<decltype(row.added)> == Dim) {
+    if (facet) {
+      row.added = copies_numbered(facet->copies[1]);
+      if (facet->is_open()) {
+        Row front = row;
+        front.added = copies_numbered(facet->copies[0]);
+        if constexpr (Dim == 2) {
+          front.domain = Side::left;
+          row.domain = Side::right;
+        } else {  // counter-clockwise as seen from outside of the elements in front
+          std::swap(front.corners[1], front.corners[2]);
+          std::swap(front.added[1], front.added[2]);
+        }
+        rows.push_back(front);
+      }
+    }
+  }
+  rows.push_back(row);
+}
+
+// Replaces the labels of corners by numbers, inserts the mid nodes of each row after its corners or
+// replaces corners by copies, and numbers the rows after those of earlier windows. Collective.
 template <int Dim>
 template <class Rows>
-void NodesById<Dim>::number_rows(Rows& rows, const std::vector<std::int64_t>& mids,
+void NodesById<Dim>::number_rows(Rows& rows, const std::vector<std::int64_t>& added,
                                  std::size_t count, std::int64_t& before) const {
   label_by_numbers(rows.nodes);
-  if (!mids.empty()) {
+  if (cracks_) {
+    for (std::size_t k = 0; k < added.size(); ++k)
+      if (added[k] >= 0) rows.nodes[k] = added[k];
+  } else if (!added.empty()) {
     const auto corners = static_cast<std::ptrdiff_t>(rows.nodes.size() / count);
-    const auto each = static_cast<std::ptrdiff_t>(mids.size() / count);
+    const auto each = static_cast<std::ptrdiff_t>(added.size() / count);
     std::vector<std::int64_t> all;
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k) {
       const auto corner = rows.nodes.begin() + corners * k;
       all.insert(all.end(), corner, corner + corners);
-      all.insert(all.end(), mids.begin() + each * k, mids.begin() + each * (k + 1));
+      all.insert(all.end(), added.begin() + each * k, added.begin() + each * (k + 1));
     }
     rows.nodes = std::move(all);
   }
@@ -347,60 +415,70 @@ void NodesById<Dim>::number_rows(Rows& rows, const std::vector<std::int64_t>& mi
 
 template <int Dim>
 void NodesById<Dim>::for_elements(const std::function<void(const ElementRows&)>& visit) const {
-  mid_nodes_ ? for_element_rows<edges_of(Dim + 1)>(visit) : for_element_rows<0>(visit);
+  if (cracks_)
+    for_element_rows<Dim + 1>(visit);
+  else
+    mid_nodes_ ? for_element_rows<edges_of(Dim + 1)>(visit) : for_element_rows<0>(visit);
 }
 
 template <int Dim>
-template <std::size_t mid_count>
+template <std::size_t added_count>
 void NodesById<Dim>::for_element_rows(const std::function<void(const ElementRows&)>& visit) const {
-  using Row = ElementRow<Dim, mid_count>;
+  using Row = ElementRow<Dim, added_count>;
   std::int64_t before = 0;
   for_windows([&](const Window& window) {
     std::vector<Row> own;
     results_.for_elements(window.begin, window.end, [&](const auto& places) {
-      own.push_back({labels(places), mids_of<mid_count>(places), element_quality(results_, places),
-                     region_of_ ? (*region_of_)(places) : 0});
+      own.push_back({labels(places), added_to<added_count>(places),
+                     element_quality(results_, places), region_of_ ? (*region_of_)(places) : 0});
     });
-    std::vector<std::int64_t> mids;
-    ElementRows rows = sorted_elements<Dim, mid_count>(
+    std::vector<std::int64_t> added;
+    ElementRows rows = sorted_elements<Dim, added_count>(
         brought(std::move(own), [](const Row& e) { return e.corners[0]; }), region_of_.has_value(),
-        mids);
-    number_rows(rows, mids, rows.quality.size(), before);
+        added);
+    number_rows(rows, added, rows.quality.size(), before);
     visit(rows);
   });
 }
 
 template <int Dim>
 void NodesById<Dim>::for_facets(const std::function<void(const FacetRows&)>& visit) const {
-  mid_nodes_ ? for_facet_rows<edges_of(Dim)>(visit) : for_facet_rows<0>(visit);
+  if (cracks_)
+    for_facet_rows<Dim>(visit);
+  else
+    mid_nodes_ ? for_facet_rows<edges_of(Dim)>(visit) : for_facet_rows<0>(visit);
 }
 
 template <int Dim>
-template <std::size_t mid_count>
+template <std::size_t added_count>
 void NodesById<Dim>::for_facet_rows(const std::function<void(const FacetRows&)>& visit) const {
-  using Row = FacetRow<Dim, mid_count>;
+  using Row = FacetRow<Dim, added_count>;
   std::int64_t before = 0;
   std::vector<Row> own;
   const auto first = [](const Row& f) { return f.corners[0]; };
   const auto pass_on = [&](std::vector<Row> arrived) {
-    std::vector<std::int64_t> mids;
-    FacetRows rows = sorted_facets<Dim, mid_count>(std::move(arrived), mids);
-    number_rows(rows, mids, rows.tags.size(), before);
+    std::vector<std::int64_t> added;
+    FacetRows rows = sorted_facets<Dim, added_count>(std::move(arrived), added);
+    number_rows(rows, added, rows.tags.size(), before);
     visit(rows);
   };
   if constexpr (Dim == 2) {
     // All edges are one window, since every rank has the whole boundary in memory.
     results_.for_boundary_edges([&](const auto& places, const BoundaryEdge& edge) {
-      own.push_back(
-          {labels(places), mids_of<mid_count>(places), edge.tag, 0, side_of_domain(edge)});
+      add_facet(
+          places,
+          Row{labels(places), added_to<added_count>(places), edge.tag, 0, side_of_domain(edge)},
+          own);
     });
     if (blocks_)
       own = redistribute<Row>(comm_, own, [&](const Row& f) { return blocks_->rank_of(first(f)); });
     pass_on(std::move(own));
   } else {
     const auto keep = [&](const auto& places, std::int32_t tag) {
-      own.push_back({labels(places), mids_of<mid_count>(places), tag,
-                     facet_quality(results_, places), Side::both});
+      add_facet(places,
+                Row{labels(places), added_to<added_count>(places), tag,
+                    facet_quality(results_, places), Side::both},
+                own);
     };
     for_windows([&](const Window& window) {
       own.clear();
@@ -420,9 +498,15 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
     const Point<3> x = results_.point_in_space(i);
     groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
   }
-  for (const std::size_t e : own_mids_) {
-    const MidNode& mid = mid_nodes_->nodes()[e];
-    groups.add(mid.tag, {&mid.x, 1});
+  for (const Added& added : own_added_) {
+    if (mid_nodes_) {
+      const MidNode& mid = mid_nodes_->nodes()[added.index];
+      groups.add(mid.tag, {&mid.x, 1});
+    } else {
+      const std::int64_t i = results_.node_at(cracks_->copies()[added.index].node);
+      const Point<3> x = results_.point_in_space(i);
+      groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
+    }
   }
   return groups.of_all(comm_);
 }
@@ -432,6 +516,8 @@ std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
   results_.for_facets([&](const auto& places, std::int32_t tag) {
     groups.add(tag, places_in_space(results_, places));
+    const CrackFacet<Dim>* const facet = cracks_ ? cracks_->facet(places) : nullptr;
+    if (facet && facet->is_open()) groups.add(tag, places_in_space(results_, places));
   });
   return groups.of_all(comm_);
 }

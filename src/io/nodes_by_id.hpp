@@ -8,14 +8,15 @@
 
 #include "comm/id_blocks.hpp"
 #include "io/node_source.hpp"
+#include "results/cracks.hpp"
 #include "results/element_regions.hpp"
 #include "results/mid_nodes.hpp"
 #include "results/results.hpp"
 
 namespace pnpbs::io {
 
-// The source for all files that are not in pieces. With elements of second order, the mid nodes of
-// edges follow the nodes in the order of their numbers.
+// The source for all files that are not in pieces. Mid nodes of edges, with elements of second
+// order, or copies of nodes on cracks follow the nodes in the order of their numbers.
 template <int Dim>
 class NodesById : public NodeSource {
  public:
@@ -43,16 +44,22 @@ class NodesById : public NodeSource {
   template <class Row, class Label>
   std::vector<Row> brought(std::vector<Row> rows, const Label& first_label) const;
   template <class Rows>
-  void number_rows(Rows& rows, const std::vector<std::int64_t>& mids, std::size_t count,
+  void number_rows(Rows& rows, const std::vector<std::int64_t>& added, std::size_t count,
                    std::int64_t& before) const;
-  template <std::size_t mids>
+  template <std::size_t added>
   void for_element_rows(const std::function<void(const ElementRows&)>& visit) const;
-  template <std::size_t mids>
+  template <std::size_t added>
   void for_facet_rows(const std::function<void(const FacetRows&)>& visit) const;
-  template <std::size_t mids, std::size_t corners>
-  std::array<std::int64_t, mids> mids_of(const std::array<std::int64_t, corners>& places) const;
+  template <std::size_t added, std::size_t corners>
+  std::array<std::int64_t, added> added_to(const std::array<std::int64_t, corners>& places) const;
+  template <std::size_t n>
+  std::array<std::int64_t, n> copies_numbered(std::array<std::int64_t, n> copies) const;
+  template <class Row>
+  void add_facet(const std::array<std::int64_t, Dim>& places, Row row,
+                 std::vector<Row>& rows) const;
   template <class Row, class RowsOf, class Visit>
-  void for_mid_windows(const RowsOf& rows_of, const Visit& visit) const;
+  void for_added_windows(const RowsOf& rows_of, const Visit& visit) const;
+  void list_added_nodes();
   std::int64_t first_place_in(std::size_t part) const;
   std::int64_t label(std::int64_t place) const;
   template <std::size_t n>
@@ -62,9 +69,15 @@ class NodesById : public NodeSource {
   const Results<Dim>& results_;
   const Communicator& comm_;
   std::int64_t owned_ = 0;               // number of owned nodes
-  std::int64_t node_count_ = 0;          // of all ranks, without mid nodes
+  std::int64_t node_count_ = 0;          // of all ranks, without added nodes
   const MidNodes* mid_nodes_ = nullptr;  // set for elements of second order
-  std::vector<std::size_t> own_mids_;    // mid nodes that this rank writes, in the order of numbers
+  const Cracks<Dim>* cracks_ = nullptr;  // set for elements with cracks
+  // The mid nodes or copies that this rank writes, in the order of their numbers.
+  struct Added {
+    std::int64_t number;
+    std::size_t index;  // in the lists of mid nodes or copies
+  };
+  std::vector<Added> own_added_;
   mutable std::optional<ElementRegions<Dim>> region_of_;  // set if with_regions
   // With several ranks, the label of a node is its id. A single rank uses indices, which are the
   // numbers already.

@@ -233,6 +233,14 @@ void require_possible(const std::string& path, const Format& format, int order, 
         "there");
 }
 
+// Throws unless a file of this format can contain elements with cracks.
+void require_cracks(const std::string& path, const Format& format, int order) {
+  if (!format.second_order)  // other formats list boundaries, or are in pieces
+    refuse(std::string("a .") + format.name + " file cannot contain elements with cracks: '" +
+           path + "'; .msh, .msh2, .vtu and .vtkhdf files can");
+  if (order == 2) refuse("elements of second order cannot have cracks: '" + path + "'");
+}
+
 // Returns whether a second file can be placed beside this path: not for streams and devices.
 bool has_room_beside(const std::string& path) {
   std::error_code error;
@@ -369,7 +377,8 @@ void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicat
 
 Requested requested_of(const Placement& placement) {
   const GeometryKind kind = placement.results().kind();
-  return {placement.dimension(), kind != GeometryKind::surface, kind};
+  return {placement.dimension(), kind != GeometryKind::surface, kind,
+          !placement.results().crack_tags().empty()};
 }
 
 void give_up_if_asked(const AsksToStop& requests_stop, std::size_t done, std::size_t files) {
@@ -404,6 +413,7 @@ void add_request(const std::string& path, const std::string& format_name, int or
       (format.elements == Elements::regions && of.has_elements) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
   const int held = holds_elements ? std::max(order, 1) : 0;
+  if (of.has_cracks && held > 0) require_cracks(path, format, held);
   std::vector<FileRequest> grids{{path, &format, held}};
   if (elements && format.elements == Elements::grid && of.has_elements && has_room_beside(path))
     grids.push_back({facets_path(path), &format, held, true});

@@ -27,6 +27,7 @@ struct Requested {
   int dimension = 2;
   bool has_elements = false;
   GeometryKind kind = GeometryKind::plane;
+  bool has_cracks = false;  // elements have cracks
 };
 
 Requested requested_of(const Placement& placement);

@@ -42,7 +42,11 @@ double InnerFacets::covered_share() {
   return level_.comm->allreduce_sum(share).value();
 }
 
-const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
+const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) { return find(i, true); }
+
+const std::vector<InnerFacet>& InnerFacets::around(std::int64_t i) { return find(i, false); }
+
+const std::vector<InnerFacet>& InnerFacets::find(std::int64_t i, bool least_only) {
   const Nodes<3>& nodes = level_.nodes;
   const auto on_surface = [&](std::int64_t j) { return nodes.carrier(j) != Carrier::free; };
   found_.clear();
@@ -50,14 +54,16 @@ const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
   faces_.clear();
   level_.stars.for_simplices(i, [&](const Stars<3>::Corners& others) {
     for (std::size_t k = 0; k < 3; ++k) {
-      std::array<std::int64_t, 2> two{others[k], others[(k + 1) % 3]};
+      std::array<std::int64_t, 3> face{i, others[k], others[(k + 1) % 3]};
       const std::int64_t apex = others[(k + 2) % 3];
-      if (nodes.id(two[0]) > nodes.id(two[1])) std::swap(two[0], two[1]);
-      if (nodes.id(two[0]) < nodes.id(i) || !on_surface(two[0]) || !on_surface(two[1])) continue;
-      faces_.push_back({{nodes.id(two[0]), nodes.id(two[1])},
-                        {i, two[0], two[1]},
+      if (!on_surface(face[1]) || !on_surface(face[2])) continue;
+      std::ranges::sort(face, {}, [&](std::int64_t j) { return nodes.id(j); });
+      if (least_only && face[0] != i) continue;
+      const auto& [a, b, c] = face;
+      faces_.push_back({{nodes.id(a), nodes.id(b), nodes.id(c)},
+                        face,
                         nodes.id(apex),
-                        centroid(ordered_by_id(tetrahedron_of(nodes, {i, two[0], two[1], apex})))});
+                        centroid(ordered_by_id(tetrahedron_of(nodes, {a, b, c, apex})))});
     }
   });
   std::ranges::sort(faces_, {}, [](const Face& f) { return std::pair(f.ids, f.apex); });

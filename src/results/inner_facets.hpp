@@ -34,6 +34,8 @@ class InnerFacets {
   // Returns the faces whose node with the smallest id is node i. They are the same on every rank
   // that has the star of node i. The reference is valid until the next call.
   const std::vector<InnerFacet>& at(std::int64_t i);
+  // Returns all such faces of node i, likewise.
+  const std::vector<InnerFacet>& around(std::int64_t i);
   // Returns the area of the faces of all ranks over that of the inner surfaces. Collective;
   // requires inner surfaces, and the stars of all owned nodes.
   double covered_share();
@@ -41,12 +43,13 @@ class InnerFacets {
  private:
   // A face of node i together with one of its two tetrahedra.
   struct Face {
-    std::array<std::int64_t, 2> ids;    // ids of the other two nodes, ascending
+    std::array<std::int64_t, 3> ids;    // ascending
     std::array<std::int64_t, 3> nodes;  // memory indices, in the order of ids
     std::int64_t apex;                  // id of the fourth node of the tetrahedron
     Point<3> centroid;
   };
 
+  const std::vector<InnerFacet>& find(std::int64_t i, bool least_only);
   bool on_patch(std::int64_t i, std::int32_t patch) const;
   std::int32_t crossed_facet(const Point<3>& from, const Point<3>& to);
   void judge(const Face& one, const Face& other);

@@ -85,6 +85,14 @@ class NodalResults {
   virtual std::shared_ptr<const ExchangePattern> exchange_pattern() = 0;
   std::int64_t nodes_on_ranks_before() const;
 
+  // --- cracks ---
+  // Sets the tags of the inner curves or surfaces that are cracks. Local.
+  void set_crack_tags(std::vector<std::int32_t> tags) {
+    crack_tags_ = std::move(tags);
+    cracks_stamp_ = LevelStamp();
+  }
+  const std::vector<std::int32_t>& crack_tags() const { return crack_tags_; }
+
   // --- fields: arrays [result index][components], ghosts included ---
   // Starts to send the values of owned nodes to their ghosts. n must be held(). All ranks must call
   // it, and if one rank throws, all ranks throw.
@@ -118,7 +126,9 @@ class NodalResults {
 
   std::shared_ptr<const Communicator> comm_;
   // The stamps for which each kind of data was prepared last.
-  LevelStamp order_stamp_, lists_stamp_, stars_stamp_, quality_stamp_, exchange_stamp_;
+  LevelStamp order_stamp_, lists_stamp_, stars_stamp_, quality_stamp_, exchange_stamp_,
+      cracks_stamp_;
+  std::vector<std::int32_t> crack_tags_;
   std::vector<std::int32_t> by_id_, place_;
   std::int64_t owned_in_order_ = 0;  // number of owned nodes at the beginning of by_id_
   std::shared_ptr<const ExchangePattern> exchange_pattern_;

@@ -15,6 +15,7 @@
 #include "level/reach.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "quality/measured_nodes.hpp"
+#include "results/cracks.hpp"
 #include "results/element_angles.hpp"
 #include "results/mid_nodes.hpp"
 
@@ -119,7 +120,7 @@ void Results<Dim>::agree_on_derived() noexcept {
   for (const bool is_there :
        {level_->ghosts.are_exact(level_->nodes, kStarHops), lists_stamp_ == stamp(),
         stars_stamp_ == stamp(), exchange_stamp_ == stamp(), quality_stamp_ == stamp(),
-        mid_nodes_stamp_ == stamp()})
+        mid_nodes_stamp_ == stamp(), cracks_stamp_ == stamp()})
     derived = mixed(derived ^ std::uint64_t{is_there});
   bool agreed = false;
   try {
@@ -136,6 +137,16 @@ const MidNodes& Results<Dim>::mid_nodes() {
   mid_nodes_ = std::make_shared<const MidNodes>(make_mid_nodes(*this));
   mid_nodes_stamp_ = level_->stamp();
   return *mid_nodes_;
+}
+
+template <int Dim>
+const Cracks<Dim>& Results<Dim>::cracks() {
+  prepare_stars();
+  const bool is_known = cracks_stamp_ == level_->stamp();
+  if (comm_->allreduce_sum(std::uint64_t{!is_known}) == 0) return *cracks_;
+  cracks_ = std::make_shared<const Cracks<Dim>>(make_cracks(*this, crack_tags_));
+  cracks_stamp_ = level_->stamp();
+  return *cracks_;
 }
 
 template <int Dim>

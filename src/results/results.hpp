@@ -20,6 +20,8 @@
 namespace pnpbs {
 
 class MidNodes;
+template <int Dim>
+class Cracks;
 
 // Results in the plane or in space. Calls with `visit` use result indices.
 template <int Dim>
@@ -52,6 +54,9 @@ class Results : public NodalResults {
   // Returns the mid nodes of elements of second order (mid_nodes.hpp). All ranks must call it, and
   // if one rank throws, all ranks throw.
   const MidNodes& mid_nodes();
+  // Returns the cracks along the curves or surfaces with the crack tags (cracks.hpp). All ranks
+  // must call it, and if one rank throws, all ranks throw.
+  const Cracks<Dim>& cracks();
   // Calls visit(corners) for every element, a triangle or a tetrahedron, once over all ranks: at
   // the owner of its node with the smallest id, which is the first corner. Requires
   // prepare_stars().
@@ -146,6 +151,7 @@ class Results : public NodalResults {
   mutable LevelStamp on_sphere_stamp_;
   std::shared_ptr<const MidNodes> mid_nodes_;
   LevelStamp mid_nodes_stamp_;
+  std::shared_ptr<const Cracks<Dim>> cracks_;
 };
 
 // A scope in which results show another level, such as one under construction.

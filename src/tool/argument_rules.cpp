@@ -28,6 +28,8 @@ void require_centres_that_fit(const Arguments& arguments, bool multiplied) {
            (arguments.in_walls ? "wall" : "domain") + " over d^2, or d^3 in space");
   if (arguments.order == 2)
     refuse(option + " and --order 2 exclude each other: particles have no elements");
+  if (!arguments.cracks.empty())
+    refuse(option + " and --crack exclude each other: particles have no elements");
   if (arguments.surfaces_only)
     refuse(option + " is for bodies, and with --surfaces-only nothing is inside");
   if (arguments.repair_if_needed)
@@ -125,6 +127,12 @@ void require_arguments_that_fit(const Arguments& arguments) {
   const auto colour = arguments.colour.value_or(picture::ElementColour::none);
   if (arguments.nodes_only && arguments.order == 2)
     refuse("--nodes-only and --order 2 exclude each other");
+  if (!arguments.cracks.empty() && arguments.nodes_only)
+    refuse("--crack and --nodes-only exclude each other: cracks double the nodes of elements");
+  if (!arguments.cracks.empty() && arguments.order == 2)
+    refuse("--crack and --order 2 exclude each other: elements with cracks are of first order");
+  if (!arguments.cracks.empty() && arguments.surfaces_only)
+    refuse("--crack and --surfaces-only exclude each other: surfaces alone have no cracks");
   if (arguments.bubbles && colour != picture::ElementColour::none) {
     refuse("--bubbles and --color exclude each other");
   }

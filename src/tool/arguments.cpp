@@ -456,6 +456,11 @@ void add_output(CLI::App& app, Arguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(1, 2))
       ->group(group);
+  add_repeatable(app, "--crack", arguments.cracks,
+                 "doubles the nodes on the inner curve or surface of this group in\n"
+                 ".vtu, .vtkhdf, .msh and .msh2, except at its tips; may be given\n"
+                 "several times");
+  app.get_option("--crack")->type_name("NAME|TAG")->group(group);
   app.add_flag("--volumes", arguments.volumes,
                "the volume of each node's Voronoi cell (areas in the plane and on\n"
                "surfaces), as the field volume in .vtu, .pvtu, .vtkhdf, .xdmf,\n"

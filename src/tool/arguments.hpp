@@ -73,9 +73,10 @@ struct Arguments {
   bool bubbles = false;
   bool check = false;  // whether the results are checked
   bool nodes_only = false;
-  int order = 1;            // of the elements in files
-  bool at_centres = false;  // nodes lie at the centres of the matter they represent
-  bool in_walls = false;    // as at_centres, but the matter is a wall around the domain
+  int order = 1;                    // of the elements in files
+  std::vector<std::string> cracks;  // curves or surfaces, by name or tag
+  bool at_centres = false;          // nodes lie at the centres of the matter they represent
+  bool in_walls = false;            // as at_centres, but the matter is a wall around the domain
   std::optional<int> wall_layers;
   bool volumes = false;                // whether the volumes of nodes are computed
   std::optional<std::string> density;  // a formula

@@ -137,11 +137,13 @@ int dimension_of(const std::string& path, bool surfaces_only) {
   return dimension;
 }
 
-// Returns the tag of a group that is given by its name or number.
-std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& names) {
+}  // namespace
+
+std::int32_t tag_of_facets(const std::string& group, int dimension,
+                           const std::vector<GroupName>& names, const std::string& option) {
   std::vector<std::string> known;
   for (const GroupName& each : names) {
-    if (each.dimension != 2) continue;
+    if (each.dimension != dimension) continue;
     if (each.name == group) return each.tag;
     known.push_back(each.name);
   }
@@ -151,12 +153,10 @@ std::int32_t tag_of(const std::string& group, const std::vector<GroupName>& name
   if (read.ec == std::errc() && read.ptr == end && tag != 0) return tag;
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  throw BadInput("--inner: '" + group + "' is neither a tag nor the name of a group of triangles" +
-                 did_you_mean(group, known) +
+  throw BadInput(option + ": '" + group + "' is neither a tag nor the name of a group of " +
+                 (dimension == 2 ? "triangles" : "segments") + did_you_mean(group, known) +
                  (known.empty() ? " (the domain has no named ones)" : " (known: " + list + ")"));
 }
-
-}  // namespace
 
 DomainSource::DomainSource(const Arguments& arguments)
     : path_(arguments.domain),
@@ -240,7 +240,8 @@ void DomainSource::name_groups(pnpbs_domain domain, pnpbs_context context) const
           context);
   const std::vector<GroupName> names = group_names(domain, context);
   for (const std::string& group : inner_)
-    check(pnpbs_domain_set_role(domain, tag_of(group, names), PNPBS_INNER), context);
+    check(pnpbs_domain_set_role(domain, tag_of_facets(group, 2, names, "--inner"), PNPBS_INNER),
+          context);
 }
 
 void DomainSource::add_regions(pnpbs_domain domain, pnpbs_context context) const {

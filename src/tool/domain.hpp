@@ -95,4 +95,9 @@ class DomainSource {
   std::vector<Region> regions_;
 };
 
+// Returns the tag of a group of facets with this dimension, given by its name or number. Throws
+// BadInput if `group` is neither.
+std::int32_t tag_of_facets(const std::string& group, int dimension,
+                           const std::vector<GroupName>& names, const std::string& option);
+
 }  // namespace pnpbs::tool

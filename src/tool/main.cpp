@@ -24,6 +24,7 @@
 #include "tool/library.hpp"
 #include "tool/named_grids.hpp"
 #include "tool/node_fields.hpp"
+#include "tool/numbers.hpp"
 #include "tool/open_boundary.hpp"
 #include "tool/outputs.hpp"
 #include "tool/particles.hpp"
@@ -288,9 +289,29 @@ void read_domain(Work& work) {
   if (arguments.at_centres) centre_nodes(work);
 }
 
+// Sets the tags of cracks. Collective.
+void set_cracks(const Work& work, pnpbs_placement placement) {
+  if (work.arguments.cracks.empty()) return;
+  const DomainSource& source = *work.requests.source;
+  work.ranks.collective_try([&] {
+    const std::vector<GroupName> names = group_names(work.domain, work.context);
+    std::vector<std::int32_t> tags;
+    for (const std::string& group : work.arguments.cracks) {
+      tags.push_back(tag_of_facets(group, source.dimension() == 3 && !source.on_sphere() ? 2 : 1,
+                                   names, "--crack"));
+      // The call fails if nothing has the tag.
+      check(pnpbs_domain_distance(work.domain, tags.back(), 0, nullptr, nullptr), work.context);
+    }
+    check(
+        pnpbs_placement_set_cracks(placement, static_cast<std::int32_t>(tags.size()), tags.data()),
+        work.context);
+  });
+}
+
 void create(Work& work, Placement& placement) {
   check(pnpbs_placement_create(work.context, work.filled(), placement.out()), work.context);
   work.requests.spacing->give_to(placement, work.domain, work.context, work.ranks);
+  set_cracks(work, placement);
 }
 
 pnpbs_status place(Work& work, pnpbs_placement placement) {
@@ -331,6 +352,19 @@ void report_straight_edges(const Work& work, pnpbs_placement placement) {
                  "fold there: use a smaller d\n";
 }
 
+// Reports cracks that elements connect because they do not follow the surfaces. Collective.
+void report_incomplete_cracks(const Work& work, pnpbs_placement placement) {
+  constexpr double kNearlyAll = 0.999;  // chords of curved surfaces have a little less area
+  std::int64_t count = 0;
+  double covered = 1;
+  check(pnpbs_placement_get_crack_facets(placement, 0, &count, &covered, nullptr, nullptr, nullptr),
+        work.context);
+  if (covered < kNearlyAll && work.ranks.is_first())
+    std::cerr << "pnpbs: note: elements follow " << short_number(100 * covered, 4)
+              << " percent of the cracks only, and connect their sides elsewhere: use a smaller "
+                 "d there\n";
+}
+
 ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status status) {
   auto& [arguments, ranks, requests, context, domain, particles, look, body] = work;
   Outputs& outputs = *requests.outputs;
@@ -361,6 +395,7 @@ ExitCode write_results(Work& work, pnpbs_placement placement, pnpbs_status statu
   give_up_if_any_is_interrupted(ranks);
   outputs.write_nodes(placement, matter.particles, context);
   if (arguments.order == 2) report_straight_edges(work, placement);
+  if (!arguments.cracks.empty()) report_incomplete_cracks(work, placement);
   statistics.renew_memory(placement);  // writing files takes memory as well
   outputs.replace_report(report());
   if (work.talks() && !outputs.use_standard_output())

@@ -156,6 +156,12 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
     (handle, 1, out.integers + 1, out.small + 2, out.integers + 3))                               \
   X(placement_get_edges, (handle, 0, out.integers + 1, out.integers + 2, NULL, NULL, NULL))       \
   X(placement_find_edges, (handle, 0, 3, NULL, out.integers + 1))                                 \
+  X(placement_set_cracks, (handle, 1, out.small + 8))                                             \
+  X(placement_get_crack_nodes,                                                                    \
+    (handle, 1, out.integers + 1, out.integers + 2, out.integers + 3, out.integers + 4))          \
+  X(placement_get_cracked_elements, (handle, 1, out.integers + 1, out.integers + 2))              \
+  X(placement_get_crack_facets, (handle, 1, out.integers + 1, out.reals + 1, out.integers + 2,    \
+                                 out.integers + 4, out.small + 8))                                \
   X(placement_add_output_field, (handle, "height", 1, 1, grid))                                   \
   X(placement_clear_output_fields, (handle))                                                      \
   X(placement_sum, (handle, 1, 1, grid, out.reals + 1))                                           \

@@ -15,6 +15,7 @@ program test_mesh
   call context%create_serial
   call about_the_plane
   call about_regions
+  call about_cracks
   call about_a_box
   call about_a_surface
   call about_wrong_arguments
@@ -101,6 +102,44 @@ contains
     call domain%add_region([0.2d0, 0.9d0], 4)
     call domain%check(stat, errmsg)
     call expect_failure(stat, PNPBS_ERROR_DOMAIN, errmsg, 'region 2 at (0.2, 0.9)')
+    call domain%destroy
+  end subroutine
+
+  !> Checks a square that a crack cuts into two parts.
+  subroutine about_cracks
+    type(pnpbs_domain) :: domain
+    type(pnpbs_placement) :: placement
+    integer(c_int64_t), allocatable :: whole(:,:), opened(:,:), pairs(:), front(:,:), back(:,:)
+    integer(c_int64_t), allocatable :: originals(:)
+    integer(c_int32_t), allocatable :: tags(:)
+    integer(c_int64_t) :: nodes, elements, copies, all_copies, facets, i
+    call square(context, domain, placement, 0.15d0)
+    call domain%add_polyline(PNPBS_INNER, .false., reshape([0.5d0, 0d0, 0.5d0, 1d0], [2, 2]), [7])
+    call placement%set('steps', 20)
+    call placement%run
+    call placement%set_cracks([7])
+    call placement%count(nodes)
+    call placement%triangle_count(elements)
+    call placement%crack_node_count(copies, all_copies)
+    call placement%crack_facet_count(facets)
+    call expect(copies == all_copies .and. copies == facets + 1, 'number of copies')
+    allocate (whole(3, elements), opened(3, elements), pairs(copies), front(2, facets), &
+              back(2, facets), tags(facets))
+    call placement%get_triangles(whole)
+    call placement%get_cracked_elements(opened)
+    call placement%get_crack_nodes(pairs)
+    call placement%get_crack_facets(front, back, tags)
+    originals = [[(i, i=1, nodes)], pairs]
+    call expect(all(reshape(originals([opened]), [3, int(elements)]) == whole), &
+                'elements with copies')
+    call expect(all(originals([front]) == originals([back])), 'sides of a crack')
+    call expect(all(front <= nodes) .and. all(back > nodes) .and. all(tags == 7), 'copies behind')
+    call placement%set_cracks([0], stat, errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, '0')
+    call placement%set_cracks([99])
+    call placement%get_crack_nodes(pairs, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'tag 99')
+    call placement%destroy
     call domain%destroy
   end subroutine
 

@@ -949,6 +949,47 @@ class Meshes(Case):
         self.assertIn("region 2 at (0.2, 0.9)",
                       self.assert_status(Status.ERROR_DOMAIN, domain.check))
 
+    def check_cracks(self, placement, elements, tag, copies):
+        """Checks the cracks of a placement that they cut into two halves of the same size."""
+        self.assertIs(placement.set_cracks([tag]), placement)
+        pairs, facets, opened = (placement.crack_nodes(), placement.crack_facets(),
+                                 placement.cracked_elements())
+        points = placement.nodes().points
+        n = len(points)
+        self.assertEqual((len(pairs.nodes), pairs.all), (copies, copies))
+        self.assertEqual(pairs.numbers.tolist(), list(range(copies)))
+        originals = np.concatenate([np.arange(n), pairs.nodes])
+        np.testing.assert_array_equal(originals[opened], elements)
+        np.testing.assert_array_equal(originals[facets.front], originals[facets.back])
+        self.assertTrue((facets.front < n).all() and (facets.back >= n).all())
+        self.assertEqual(set(facets.tags), {tag})
+        self.assertAlmostEqual(facets.covered, 1, 7)
+        # Elements behind the crack have copies, those in front of it have none.
+        x = points[elements].mean(axis=1)
+        corner, *others = points[facets.front[0]]
+        normal = (np.cross(*(other - corner for other in others)) if len(others) == 2
+                  else np.array([corner[1] - others[0][1], others[0][0] - corner[0]]))
+        behind = (x - corner) @ normal < 0
+        np.testing.assert_array_equal(np.isin(opened, facets.back).any(axis=1),
+                                      np.isin(elements, originals[facets.back]).any(axis=1) & behind)
+        self.assertFalse(np.isin(opened[behind], facets.front).any())
+        placement.set_cracks([99])
+        self.assertIn("has the tag 99", self.assert_status(Status.ERROR_ARGUMENT,
+                                                           placement.crack_nodes))
+        self.assert_status(Status.ERROR_ARGUMENT, placement.set_cracks, 0)
+        np.testing.assert_array_equal(placement.set_cracks([]).cracked_elements(), elements)
+
+    def test_cracks(self):
+        placement = self.placed(self.divided_square(), 0.1)
+        on_line = (placement.nodes().points[:, 0] == 0.5).sum()
+        self.check_cracks(placement, placement.triangles(), 7, on_line)
+        domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1), tag=5)
+        sheet = [(0.5, 0, 0), (0.5, 1, 0), (0.5, 1, 1), (0.5, 0, 1)]
+        domain.add_surface(sheet, [(0, 1, 2), (0, 2, 3)], role="inner", tags=6).set_fragment()
+        placement = self.placed(domain, 0.25)
+        on_sheet = (placement.nodes().points[:, 0] == 0.5).sum()
+        self.check_cracks(placement, placement.tetrahedra(), 6, on_sheet)
+
     def test_in_space(self):
         domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (2, 1, 1), tag=5)
         wall = [(1, 0.2, 0.2), (1, 0.8, 0.2), (1, 0.8, 0.8), (1, 0.2, 0.8)]

@@ -36,8 +36,8 @@ from .mesh import DistributedMesh
 from .mesh_arrays import MeshArrays
 from .particles import Particles
 from .placement import Estimate, Placement, PopulationChange
-from .results import (CellBands, EdgeBands, Edges, ExchangePattern, Facets, Ghosts, Nodes,
-                      Numbering, Regions, Stars)
+from .results import (CellBands, CrackFacets, CrackNodes, EdgeBands, Edges, ExchangePattern,
+                      Facets, Ghosts, Nodes, Numbering, Regions, Stars)
 from .rows import CompressedRows
 from .shapes import (GeoGrid, NoteCode, NoteData, Projection, ShapeCounts, Shapes, depth_spacing,
                      geo_build_info)
@@ -47,7 +47,8 @@ from .tables import (FormatRow, OptionRow, StatisticRow, build_info, discard_unf
 from .voronoi import VoronoiCells
 
 __all__ = [
-    "CellBands", "CompressedRows", "Context", "DistributedMesh", "Domain", "DomainWarning",
+    "CellBands", "CompressedRows", "Context", "CrackFacets", "CrackNodes", "DistributedMesh",
+    "Domain", "DomainWarning",
     "EdgeBands", "Edges", "ElementsWarning", "ErrorReason", "Estimate", "ExchangePattern",
     "Facets", "FormatRow", "GeoGrid", "Ghosts", "LeftOut", "MeshArrays", "Nodes", "NoteCode",
     "NoteData", "Numbering", "OptionRow", "Outline", "PNPBSError", "PNPBSWarning", "Particles", "Placement",

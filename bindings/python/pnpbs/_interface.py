@@ -201,6 +201,14 @@ pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capaci
     int64_t *count, int64_t *straight, int64_t *ends, int64_t *numbers, double *midpoints);
 pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n, int32_t corners,
     const int64_t *cells, int64_t *edges);
+pnpbs_status pnpbs_placement_set_cracks(pnpbs_placement placement, int32_t n,
+    const int32_t *tags);
+pnpbs_status pnpbs_placement_get_crack_nodes(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *all, int64_t *nodes, int64_t *numbers);
+pnpbs_status pnpbs_placement_get_cracked_elements(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, int64_t *elements);
+pnpbs_status pnpbs_placement_get_crack_facets(pnpbs_placement placement, int64_t capacity,
+    int64_t *count, double *covered, int64_t *front, int64_t *back, int32_t *tags);
 pnpbs_status pnpbs_placement_get_boundary_triangles(pnpbs_placement placement, int64_t capacity,
     int64_t *count, int64_t *triangles, int32_t *tags);
 pnpbs_status pnpbs_placement_get_boundary_edges(pnpbs_placement placement, int64_t capacity,

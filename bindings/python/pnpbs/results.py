@@ -139,6 +139,26 @@ class CellBands(NamedTuple):
     worst: Doubles
 
 
+class CrackNodes(NamedTuple):
+    """Copies of nodes on cracks: the local indices of the originals, numbers over all ranks, and
+    the number of copies of all ranks. The local indices of the copies follow those of all nodes and
+    ghosts."""
+
+    nodes: Ids
+    numbers: Ids
+    all: int
+
+
+class CrackFacets(NamedTuple):
+    """Both sides of the facets of cracks: local indices in front and behind, the tags, and the area
+    of all facets over that of the surfaces."""
+
+    front: Ids
+    back: Ids
+    tags: Int32s
+    covered: float
+
+
 class Regions(NamedTuple):
     """The regions of a placement: their tags, numbers of nodes and of elements, and volumes or
     areas."""
@@ -327,6 +347,59 @@ class Results(PlacementHandle):
         arrays = np.zeros((n, 2), np.int64), np.zeros(n, np.int64), np.zeros((n, self.dim))
         self._call("get_edges", n, *sizes, *arrays)
         return Edges(*arrays, straight.value)
+
+    def set_cracks(self: _Self, tags: ArrayLike) -> _Self:
+        """Sets which inner curves, in space inner surfaces, are cracks: those with these tags. Then
+        `cracked_elements` and files of elements in .msh, .msh2, .vtu and .vtkhdf have elements that
+        share no node across a crack; other formats of elements are an error, and all other results
+        are unchanged. The elements around a node fall into sectors that cracks separate. One of
+        them keeps the node, along a crack that on the left of a curve or in front of a surface, and
+        each other one gets a copy of it. At the tip of a crack there is no copy. Local, with the
+        same tags on all ranks. Raises `Status.ERROR_ARGUMENT` for the tag 0."""
+        given = np.ascontiguousarray(np.atleast_1d(tags), np.int32)
+        self._call("set_cracks", len(given), given)
+        return self
+
+    def crack_nodes(self) -> CrackNodes:
+        """Returns the pairs of nodes on cracks: the local indices of the originals, of copies of
+        this rank's nodes, and then of copies of ghosts that its elements refer to. Copy k of this
+        list has the local index k behind all nodes and ghosts, and position, tag and spacing of its
+        original. Numbers do not depend on ranks. Raises `Status.ERROR_ARGUMENT` if no inner curve
+        or surface has one of the tags of `set_cracks`, and on surfaces alone. Collective."""
+        count, all_copies = ctypes.c_int64(), ctypes.c_int64()
+        sizes = ctypes.byref(count), ctypes.byref(all_copies)
+        self._call("get_crack_nodes", 0, *sizes, None, None)
+        nodes, numbers = np.zeros(count.value, np.int64), np.zeros(count.value, np.int64)
+        self._call("get_crack_nodes", len(nodes), *sizes, nodes, numbers)
+        return CrackNodes(nodes, numbers, all_copies.value)
+
+    def cracked_elements(self) -> Ids:
+        """Returns the elements with doubled nodes along cracks (`set_cracks`): triangles in the
+        plane, (n, 3) local indices, in the order of `triangles`, or tetrahedra in space, (n, 4), in
+        that of `tetrahedra`, which is also that of `element_tags`. Indices behind all nodes and
+        ghosts are those of `crack_nodes`. Collective."""
+        self._placed_count()
+        in_space = self.dim == 3 and self.sphere_radius == 0
+        corners = 3 if self.sphere_radius > 0 else self.dim + 1
+        return self._elements("get_cracked_elements", corners)
+
+    def crack_facets(self) -> CrackFacets:
+        """Returns both sides of the facets of cracks, edges in the plane, (n, 2) local indices, and
+        triangles in space, (n, 3), with their tags. Front is on the left of a curve from the first
+        to the second node, or in front of a surface, from where the corners are counter-clockwise.
+        The nodes of the sides coincide in pairs and are different except at tips. `covered` is 1 in
+        the plane. Where d is too coarse for elements to follow a surface, facets are missing, and
+        elements connect its two sides there. Collective."""
+        self._placed_count()
+        corners = 2 if self.sphere_radius > 0 else self.dim
+        count, covered = ctypes.c_int64(), ctypes.c_double()
+        sizes = ctypes.byref(count), ctypes.byref(covered)
+        self._call("get_crack_facets", 0, *sizes, None, None, None)
+        n = count.value
+        front, back = np.zeros((n, corners), np.int64), np.zeros((n, corners), np.int64)
+        tags = np.zeros(n, np.int32)
+        self._call("get_crack_facets", n, *sizes, front, back, tags)
+        return CrackFacets(front, back, tags, covered.value)
 
     def _of_order(self, cells: Ids, order: int) -> Ids:
         """Appends the mid nodes of elements or facets to their corners, if the order is 2."""

@@ -585,6 +585,25 @@ pnpbs_placement_get_normals(placement, capacity, normals) =
     @ccall $(symbol(:pnpbs_placement_get_normals))(
         placement::pnpbs_placement, capacity::Int64, normals::Ptr{Cdouble})::pnpbs_status
 
+pnpbs_placement_set_cracks(placement, n, tags) =
+    @ccall $(symbol(:pnpbs_placement_set_cracks))(
+        placement::pnpbs_placement, n::Int32, tags::Ptr{Int32})::pnpbs_status
+
+pnpbs_placement_get_crack_nodes(placement, capacity, count, all, nodes, numbers) =
+    @ccall $(symbol(:pnpbs_placement_get_crack_nodes))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, all::Ptr{Int64},
+        nodes::Ptr{Int64}, numbers::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_cracked_elements(placement, capacity, count, elements) =
+    @ccall $(symbol(:pnpbs_placement_get_cracked_elements))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64},
+        elements::Ptr{Int64})::pnpbs_status
+
+pnpbs_placement_get_crack_facets(placement, capacity, count, covered, front, back, tags) =
+    @ccall $(symbol(:pnpbs_placement_get_crack_facets))(
+        placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, covered::Ptr{Cdouble},
+        front::Ptr{Int64}, back::Ptr{Int64}, tags::Ptr{Int32})::pnpbs_status
+
 pnpbs_placement_get_boundary_triangles(placement, capacity, count, triangles, tags) =
     @ccall $(symbol(:pnpbs_placement_get_boundary_triangles))(
         placement::pnpbs_placement, capacity::Int64, count::Ptr{Int64}, triangles::Ptr{Int64},

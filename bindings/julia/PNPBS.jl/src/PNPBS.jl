@@ -53,6 +53,7 @@ export add_from_ghosts!, incident_elements, incident_elements!
 export Transfer, at_nodes, at_points, linear_nodes
 export DistributedMesh, write_mesh, VoronoiCells, Particles
 export adjacency, adjacency!, stars, stars!, triangles, triangles!, tetrahedra, tetrahedra!
+export set_cracks!, crack_nodes, cracked_elements, crack_facets
 export edges, find_edges, element_tags, boundary_edges, boundary_triangles, check_results
 export statistic, statistics, edge_bands, cell_bands, regions, warnings, warning_data, write_file, write_files
 export add_output_field, clear_output_fields

@@ -267,6 +267,88 @@ function element_tags(placement::Placement)
 end
 
 """
+    set_cracks!(placement, tags) -> placement
+
+Sets which inner curves, in space inner surfaces, are cracks: those with these tags. Then
+[`cracked_elements`](@ref) and files of elements in .msh, .msh2, .vtu and .vtkhdf have elements that
+share no node across a crack; other formats of elements are an error, and all other results are
+unchanged. The elements around a node fall into sectors that cracks separate. One of them keeps the
+node, along a crack that on the left of a curve or in front of a surface, and each other one gets a
+copy of it. At the tip of a crack there is no copy. Local, with the same tags on all ranks. Throws
+`:error_argument` for the tag 0.
+"""
+function set_cracks!(placement::Placement, tags)
+    given = Int32[tag for tag in tags]
+    check(placement, LibPNPBS.pnpbs_placement_set_cracks(live(placement), length(given), given))
+    return placement
+end
+
+"""
+    crack_nodes(placement) -> (nodes, numbers, all)
+
+Returns the pairs of nodes on cracks ([`set_cracks!`](@ref)): the local indices of the originals, of
+copies of this rank's nodes, and then of copies of ghosts that its elements refer to. Copy `k` of
+this list has the local index `k` behind all nodes and ghosts, and position, tag and spacing of its
+original. `numbers` count from 0 over all ranks and do not depend on them; `all` is the number of
+copies of all ranks. Throws `:error_argument` if no inner curve or surface has one of the tags, and
+on surfaces alone. Collective.
+"""
+function crack_nodes(placement::Placement)
+    count, all = Ref{Int64}(0), Ref{Int64}(0)
+    get(n, arrays...) = check(placement,
+                              LibPNPBS.pnpbs_placement_get_crack_nodes(live(placement), n, count,
+                                                                       all, arrays...))
+    get(0, C_NULL, C_NULL)
+    nodes, numbers = zeros(Int64, count[]), zeros(Int64, count[])
+    get(count[], nodes, numbers)
+    return (nodes = nodes .+= 1, numbers = numbers, all = Int(all[]))
+end
+
+"""
+    cracked_elements(placement) -> Matrix{Int64}
+
+Returns the elements with doubled nodes along cracks ([`set_cracks!`](@ref)): triangles in the
+plane, `(3, n)` local indices, in the order of [`triangles`](@ref), or tetrahedra in space, in that
+of [`tetrahedra`](@ref), which is also that of [`element_tags`](@ref). Indices behind all nodes and
+ghosts are those of [`crack_nodes`](@ref). Collective.
+"""
+function cracked_elements(placement::Placement)
+    count = Ref{Int64}(0)
+    get(n, elements) = check(placement,
+                             LibPNPBS.pnpbs_placement_get_cracked_elements(live(placement), n,
+                                                                           count, elements))
+    get(0, C_NULL)
+    in_space = ndims(placement) == 3 && sphere_radius(placement) == 0
+    elements = zeros(Int64, in_space ? 4 : 3, count[])
+    get(count[], elements)
+    return elements .+= 1
+end
+
+"""
+    crack_facets(placement) -> (front, back, tags, covered)
+
+Returns both sides of the facets of cracks ([`set_cracks!`](@ref)), edges in the plane, `(2, n)`
+local indices, and triangles in space, `(3, n)`, with their tags. Front is on the left of a curve
+from the first to the second node, or in front of a surface, from where the corners are
+counter-clockwise. The nodes of the sides coincide in pairs and are different except at tips.
+`covered` is the area of all facets over that of the surfaces, 1 in the plane. Where d is too coarse
+for elements to follow a surface, facets are missing, and elements connect its two sides there.
+Collective.
+"""
+function crack_facets(placement::Placement)
+    count, covered = Ref{Int64}(0), Ref(0.0)
+    get(n, arrays...) = check(placement,
+                              LibPNPBS.pnpbs_placement_get_crack_facets(live(placement), n, count,
+                                                                        covered, arrays...))
+    get(0, C_NULL, C_NULL, C_NULL)
+    in_space = ndims(placement) == 3 && sphere_radius(placement) == 0
+    front = zeros(Int64, in_space ? 3 : 2, count[])
+    back, tags = similar(front), zeros(Int32, count[])
+    get(count[], front, back, tags)
+    return (front = front .+= 1, back = back .+= 1, tags = tags, covered = covered[])
+end
+
+"""
     boundary_edges(placement) -> (edges, tags)
 
 Returns the edges between consecutive nodes on boundary and inner curves of a placement in the plane

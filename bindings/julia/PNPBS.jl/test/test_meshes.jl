@@ -71,6 +71,25 @@ end
     end
 end
 
+@testset "cracks" begin
+    Context() do context
+        domain = add_polyline!(square_domain(context), [0.5 0.5; 0 1]; role = :inner,
+                               closed = false, tags = 7)
+        placement = placed_with(domain, 0.1)
+        @test set_cracks!(placement, [7]) === placement
+        x = nodes(placement).points
+        n = size(x, 2)
+        pairs, facets = crack_nodes(placement), crack_facets(placement)
+        @test length(pairs.nodes) == pairs.all == count(==(0.5), x[1, :])
+        originals = [1:n; pairs.nodes]
+        @test originals[cracked_elements(placement)] == triangles(placement)
+        @test originals[facets.front] == originals[facets.back]
+        @test all(facets.front .<= n) && all(facets.back .> n) && all(facets.tags .== 7)
+        @test fails(() -> crack_nodes(set_cracks!(placement, [99])), :error_argument, "tag 99")
+        @test cracked_elements(set_cracks!(placement, [])) == triangles(placement)
+    end
+end
+
 @testset "a distributed mesh in space" begin
     Context() do context
         box = add_box!(Domain(context; dim = 3), (0, 0, 0), (2, 1, 1); tag = 5)
