@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/conformity.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "base/found_indices.hpp"
@@ -8,6 +10,7 @@
 #include "base/point_text.hpp"
 #include "check/flat_elements.hpp"
 #include "check/surface_edges.hpp"
+#include "level/volume/inner_facets.hpp"
 #include "spacing/spacing_range.hpp"
 
 namespace pnpbs {
@@ -69,6 +72,30 @@ MessageText text_of(const ElementMeasure& measure, const std::string& element) {
          ": the spacing does not resolve the shape: " + kWaysOut;
 }
 
+// Determines how well faces follow the inner surfaces.
+void measure_inner(const Results<2>&, Conformity<2>&) {}
+void measure_inner(const Results<3>& results, Conformity<3>& result) {
+  if (results.kind() == GeometryKind::surface) return;
+  result.regions = regions_far_off(results);
+  result.inner_share = InnerFacets(results.level()).covered_share();
+}
+
+MessageText text_of(const std::vector<RegionMeasure>& regions) {
+  const RegionMeasure& worst = *std::ranges::max_element(regions, {}, [](const RegionMeasure& of) {
+    return of.measure.difference() / of.measure.domain;
+  });
+  return "the tetrahedra of region " + std::to_string(worst.tag) + " have the volume " +
+         rounded_text(worst.measure.elements) + ", the region " +
+         rounded_text(worst.measure.domain) +
+         ", and the distance of faces from the surfaces explains a difference of " +
+         rounded_text(worst.measure.chord_error) +
+         (regions.size() > 1
+              ? " (and " + std::to_string(regions.size() - 1) + " other regions are as far off)"
+              : "") +
+         ": tetrahedra cross the surfaces between regions, which the spacing does not resolve: "
+         "make it smaller there";
+}
+
 const char* elements_of(const Results<2>&) { return "triangle"; }
 const char* elements_of(const Results<3>& results) {
   return results.kind() == GeometryKind::surface ? "triangle" : "tetrahedron";
@@ -99,8 +126,16 @@ Conformity<Dim> conformity_of(const Results<Dim>& results) {
     result.measure = measure_in(results);
     result.boundary = topology_of(results, result);
     result.flat = flat_in(results, result.torn);
+    measure_inner(results, result);
   });
   return result;
+}
+
+template <int Dim>
+bool crosses_inner_surfaces(const Results<Dim>& results) {
+  Conformity<Dim> inner;
+  measure_inner(results, inner);
+  return !inner.divides();
 }
 
 template <int Dim>
@@ -114,6 +149,11 @@ ElementFaults Conformity<Dim>::element_faults() const {
     faults.lost_thousandths =
         static_cast<std::int64_t>(kParts * measure.difference() / measure.domain);
   faults.torn = isolated.count + unmatched.count + flat.count + boundary.torn.count;
+  for (const RegionMeasure& of : regions)
+    faults.crossed_thousandths += static_cast<std::int64_t>(
+        kParts * std::min(1.0, of.measure.difference() / of.measure.domain));
+  if (inner_share < kMinInnerShare)
+    faults.crossed_thousandths += static_cast<std::int64_t>(kParts * (1 - inner_share));
   return faults;
 }
 
@@ -163,6 +203,11 @@ MessageText text_of(const Conformity<Dim>& conformity, const Results<Dim>& resul
            " pieces, that of the domain of " +
            std::to_string(conformity.boundary.pieces_of_domain) +
            ": the spacing is too coarse somewhere: " + kWaysOut;
+  if (!conformity.regions.empty()) return text_of(conformity.regions);
+  if (!conformity.divides())
+    return "faces of tetrahedra cover only " +
+           std::to_string(std::lround(100 * conformity.inner_share)) +
+           " percent of the inner surfaces: tetrahedra cross these; make the spacing smaller there";
   return "";
 }
 
@@ -170,6 +215,8 @@ template struct Conformity<2>;
 template struct Conformity<3>;
 template Conformity<2> conformity_of(const Results<2>&);
 template Conformity<3> conformity_of(const Results<3>&);
+template bool crosses_inner_surfaces(const Results<2>&);
+template bool crosses_inner_surfaces(const Results<3>&);
 template MessageText text_of(const Conformity<2>&, const Results<2>&);
 template MessageText text_of(const Conformity<3>&, const Results<3>&);
 

@@ -12,6 +12,7 @@
 #include "base/message_text.hpp"
 #include "check/boundary_topology.hpp"
 #include "check/element_measure.hpp"
+#include "check/region_measure.hpp"
 #include "level/found_nodes.hpp"
 #include "results/results.hpp"
 
@@ -25,6 +26,8 @@ struct ElementFaults {
   std::int64_t euler = 0;             // error of its Euler characteristic
   std::int64_t lost_thousandths = 0;  // error of the volume, in thousandths
   std::int64_t torn = 0;              // nodes in no element or at a torn boundary; flat elements
+  // Error of the volumes of regions, in thousandths of each, and of the area of inner surfaces.
+  std::int64_t crossed_thousandths = 0;
 
   auto operator<=>(const ElementFaults&) const = default;
 };
@@ -32,6 +35,8 @@ struct ElementFaults {
 // The faults that decide whether the elements conform. Counts are over all ranks.
 template <int Dim>
 struct Conformity {
+  static constexpr double kMinInnerShare = 0.9;
+
   std::int64_t nodes = 0;     // all nodes
   FoundNodes<Dim> isolated;   // nodes in no element
   FoundNodes<Dim> unmatched;  // surfaces alone: edges whose number of triangles differs
@@ -39,6 +44,8 @@ struct Conformity {
   ElementMeasure measure;     // space: set only if the volume may be far off
   BoundaryTopology boundary;  // bodies only
   FoundNodes<Dim> flat;       // bodies only: elements of volume 0
+  std::vector<RegionMeasure> regions;  // bodies only: those far off their volume
+  double inner_share = 1;              // bodies only: share of the inner surfaces that faces follow
   // Points of this rank where elements are missing: nodes in no element, unmatched edges, nodes at
   // a torn boundary, and corners of flat elements.
   std::vector<Point<Dim>> torn;
@@ -55,13 +62,20 @@ struct Conformity {
       if (count > 0) return count;
     return measure.far_off() ? 0 : boundary.torn.count;
   }
-  bool holds() const { return fills() && boundary.agrees(); }
+  // Returns whether faces follow the inner surfaces.
+  bool divides() const { return regions.empty() && inner_share >= kMinInnerShare; }
+  bool holds() const { return fills() && boundary.agrees() && divides(); }
   ElementFaults element_faults() const;
 };
 
 // Determines the conformity. Requires prepare_stars(). Collective.
 template <int Dim>
 Conformity<Dim> conformity_of(const Results<Dim>& results);
+
+// Returns whether tetrahedra cross inner surfaces, so that these do not divide the elements.
+// Requires prepare_stars(). Collective.
+template <int Dim>
+bool crosses_inner_surfaces(const Results<Dim>& results);
 
 // Returns a message about the first fault, with a point, or an empty text if the elements conform.
 // Collective.

@@ -113,6 +113,23 @@ std::int32_t RegionIndex<Dim>::tag_behind_nearest_facet(const Point<Dim>& x) con
   return best ? best->tags[best->inside[0] ? 0 : 1] : 0;
 }
 
+// Sums the pyramids between the facets and the low corner of their box.
+template <int Dim>
+std::map<std::int32_t, double> RegionIndex<Dim>::volumes() const requires(Dim == 3) {
+  Box<3> box = empty_box<3>();
+  for (const RegionFacet<3>& facet : facets_)
+    for (const Point<3>& corner : facet.corners) include<3>(box, corner);
+  std::map<std::int32_t, double> volumes;
+  for (const auto& [corners, inside, tags] : facets_) {
+    const Point<3> a = difference(corners[0], box.low), b = difference(corners[1], box.low),
+                   c = difference(corners[2], box.low);
+    const double volume = dot(a, cross(b, c)) / 6;
+    if (inside[0]) volumes[tags[0]] -= volume;
+    if (inside[1]) volumes[tags[1]] += volume;
+  }
+  return volumes;
+}
+
 template class RegionIndex<2>;
 template class RegionIndex<3>;
 

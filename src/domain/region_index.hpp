@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "geometry/boundary_mesh.hpp"
@@ -34,6 +35,12 @@ class RegionIndex {
   // those of the other regions whose facets are within 1e-6 of the size of the domain. The last
   // entries repeat the first one where there are fewer. Local and thread-safe.
   void tags_at(const Point<Dim>& x, std::int32_t columns, std::int32_t* tags) const;
+  // Returns a facet by its index, which is that of the facet of the mesh.
+  const RegionFacet<Dim>& facet(std::int32_t f) const {
+    return facets_[static_cast<std::size_t>(f)];
+  }
+  // Returns the volume of the regions with each tag.
+  std::map<std::int32_t, double> volumes() const requires(Dim == 3);
 
  private:
   std::int32_t tag_behind_nearest_facet(const Point<Dim>& x) const;

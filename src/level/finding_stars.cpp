@@ -41,10 +41,19 @@ VolumeStarInput star_input(const Level<3>& level, const KnownRegion<3>& known) {
     const bool measured = level.nodes.moving == Carrier::free;
     return measured ? level.neighbourhood.near_boundary().room(i, level.nodes) : 0;
   };
+  // A flat tetrahedron on an inner surface lies inside the domain.
   const auto on_one_surface = [&level](const std::array<std::int64_t, 4>& corners) {
+    const LevelGeometry<3>& geometry = level.geometry;
     std::array<SurfaceSupport, 4> places;
-    for (std::size_t k = 0; k < 4; ++k) places[k] = level.geometry.place(level.nodes, corners[k]);
-    return level.geometry.surface().share_patch(places);
+    for (std::size_t k = 0; k < 4; ++k) places[k] = geometry.place(level.nodes, corners[k]);
+    return geometry.surface().share_patch(places) &&
+           std::ranges::all_of(places, [&](const SurfaceSupport& place) {
+             bool bounds = false;
+             geometry.surface().for_sides(place, [&](const SurfaceSide& side) {
+               bounds = bounds || geometry.patch_bounds_domain(side.patch);
+             });
+             return bounds;
+           });
   };
   return {level.nodes,
           level.tree->tree(),

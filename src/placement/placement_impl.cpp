@@ -305,6 +305,9 @@ Outcome PlacementImpl<Dim>::steps_and_finish() {
   state_.schedule.progress = Progress::ended;
   if (outcome == Outcome::stopped) return outcome;
   if (simulation().finish(part.end) == Outcome::stopped) return Outcome::stopped;
+  if (elements_cross_inner_surfaces(results_) &&
+      simulation().follow_inner_surfaces(part.end) == Outcome::stopped)
+    return Outcome::stopped;
   measure_finish(results_, now_.placed, state_);
   gather_unknown_uses(*now_.level, state_);
   state_.warn(warning_of_surface_fit(state_.surface_fit, options_));

@@ -32,6 +32,11 @@ class ElementRegions {
     if (!regions_) return 0;
     std::array<std::int64_t, Dim + 1> nodes;
     std::ranges::transform(places, nodes.begin(), [&](auto p) { return results_.node_at(p); });
+    return of_element(nodes);
+  }
+
+  // Returns the same for an element with these nodes. Requires any().
+  std::int32_t of_element(std::array<std::int64_t, Dim + 1> nodes) {
     std::ranges::sort(nodes, {}, [&](std::int64_t i) { return all().id(i); });
     for (const std::int64_t i : nodes)
       if (all().tag(i) == 0) return at_node(i);

@@ -13,8 +13,8 @@
 #include "domain/domain.hpp"
 #include "level/level.hpp"
 #include "level/rebalance.hpp"
+#include "level/volume/inner_facets.hpp"
 #include "results/facet_tag.hpp"
-#include "results/inner_facets.hpp"
 #include "results/nodal_results.hpp"
 
 namespace pnpbs {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/measuring_finish.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "base/point_text.hpp"
 #include "check/conformity.hpp"
+#include "level/volume/inner_facets.hpp"
 #include "method/constants.hpp"
 #include "results/element_angles.hpp"
-#include "results/inner_facets.hpp"
 #include "sizing/holding_spacing.hpp"
 
 namespace pnpbs {
@@ -63,22 +65,39 @@ void find_small_angles(const Level<3>& level, RunState& run, Unresolved<3>& unre
   unresolved.places = std::move(found.places);
 }
 
-// Warns of inner surfaces that the elements cross, because too few nodes lie on them. Faces of a
-// curved surface are smaller than the surface, by a few percent where d resolves it.
-void find_crossed_inner_surfaces(const Level<3>& level, RunState& run) {
-  constexpr double kFollowed = 0.9;
-  InnerFacets facets(level);
-  if (!facets.any()) return;
-  const double share = facets.covered_share();
-  if (share >= kFollowed) return;
-  run.warnings.emplace_back(
-      WarningCode::boundary_not_followed,
-      "faces of tetrahedra cover only " + std::to_string(std::lround(100 * share)) +
-          " percent of the inner surfaces: tetrahedra cross these, and regions do not have their "
-          "volumes; make the spacing smaller there");
+// Returns the corners of faces of this rank where tetrahedra cross inner surfaces. If no rank has
+// any, returns the corners of the faces around the regions that do not have their volumes. All
+// ranks must call it, and if one rank throws, all ranks throw.
+std::vector<Point<3>> points_of_crossed_surfaces(const Level<3>& level,
+                                                 const Conformity<3>& conformity) {
+  std::vector<Point<3>> points;
+  collective_try(*level.comm, [&] {
+    InnerFacets facets(level);
+    for (std::int64_t i = 0; i < level.nodes.count; ++i)
+      if (level.nodes.owned(i))
+        for (const InnerFacet& stray : facets.strays_at(i))
+          for (const std::int64_t j : stray.nodes) points.push_back(level.nodes.position(j));
+  });
+  if (level.comm->allreduce_sum(points.size()) == 0)
+    for (const RegionMeasure& region : conformity.regions)
+      points.insert(points.end(), region.corners.begin(), region.corners.end());
+  std::ranges::sort(points);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
 }
 
 }  // namespace
+
+bool elements_cross_inner_surfaces(Results<2>&) { return false; }
+
+bool elements_cross_inner_surfaces(Results<3>& results) {
+  if (!results.level().geometry.has_inner_surfaces()) return false;
+  const PhaseTimer timer(results.level().timers, Phase::conformity);
+  results.prepare_stars();
+  bool crosses = false;
+  collective_try(results.communicator(), [&] { crosses = crosses_inner_surfaces(results); });
+  return crosses;
+}
 
 // Triangles of the plane always conform, because their stars are constrained to the boundary.
 bool elements_conform(Results<2>&, RunState&, Unresolved<2>&) { return true; }
@@ -93,7 +112,6 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
   unresolved = {};
   unresolved.faults = conformity.element_faults();
   if (conformity.holds()) {
-    if (results.kind() == GeometryKind::body) find_crossed_inner_surfaces(results.level(), run);
     find_small_angles(results.level(), run, unresolved);
     return true;
   }
@@ -102,6 +120,9 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
   std::vector<Point<3>>& places = unresolved.places;
   const auto none = [&] { return comm.allreduce_sum(places.size()) == 0; };
   places = conformity.torn;
+  if (!conformity.divides())
+    std::ranges::copy(points_of_crossed_surfaces(results.level(), conformity),
+                      std::back_inserter(places));
   if (none()) places = points_of_other_topology(results.level());
   if (none()) places = run.surface_fit.places;
   return false;

@@ -20,6 +20,10 @@ void measure_finish(Results<3>& results, const PlacedSpacing<3>& placed, RunStat
 template <int Dim>
 void gather_unknown_uses(const Level<Dim>& level, RunState& run);
 
+// Returns whether elements of a finished level in space cross inner surfaces.
+bool elements_cross_inner_surfaces(Results<2>& results);
+bool elements_cross_inner_surfaces(Results<3>& results);
+
 // Returns whether the elements fill the domain and their boundary is its boundary. If not, adds a
 // warning. Sets `unresolved` to the points where d is to be reduced.
 bool elements_conform(Results<2>& results, RunState& run, Unresolved<2>& unresolved);

@@ -7,6 +7,7 @@
 
 #include "level/level.hpp"
 #include "level/population_events.hpp"
+#include "level/volume/boundary_refinement.hpp"
 #include "method/constants.hpp"
 #include "run/monitoring.hpp"
 #include "run/outcome.hpp"
@@ -38,6 +39,9 @@ class Simulation {
   // are valid after each part. `fraction` is the fraction of the call's work that is done before
   // it. Returns `converged` or `stopped`.
   Outcome finish(double fraction);
+  // Inserts nodes where tetrahedra cross inner surfaces, and repairs the elements again. To be
+  // called after finish(), with the same fraction and return value.
+  Outcome follow_inner_surfaces(double fraction);
 
   // --- parts of these, for callers that run them one by one ---
   // Returns the counts of all ranks.
@@ -59,7 +63,7 @@ class Simulation {
   bool stops_in_finish(double fraction);
   void place_first_row();
   void split_elements_on_boundary();
-  Outcome smooth(double fraction);
+  Outcome smooth(double fraction, std::int64_t sweeps, RefinedSurfaces surfaces);
   Outcome centre_cells(double fraction);
   PopulationCounts counted(PopulationCounts change);
   double nodes() const;

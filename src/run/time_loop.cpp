@@ -201,21 +201,28 @@ Outcome Simulation<Dim>::finish(double fraction) {
   if (stops_in_finish(fraction)) return Outcome::stopped;
   remove_crowded();
   if (stops_in_finish(fraction)) return Outcome::stopped;
-  if (smooth(fraction) == Outcome::stopped) return Outcome::stopped;
+  if (smooth(fraction, level_.settings.sweeps, RefinedSurfaces::boundary) == Outcome::stopped)
+    return Outcome::stopped;
   if (centre_cells(fraction) == Outcome::stopped) return Outcome::stopped;
   split_elements_on_boundary();
   refresh_spacing(level_);
   return Outcome::converged;
 }
 
+template <int Dim>
+Outcome Simulation<Dim>::follow_inner_surfaces(double fraction) {
+  const Outcome outcome = smooth(fraction, 0, RefinedSurfaces::boundary_and_inner);
+  if (outcome != Outcome::stopped) refresh_spacing(level_);
+  return outcome;
+}
+
 // Sweeps and repairs, in space alternating with the refinement of the boundary. Nodes inserted at
 // the boundary cause small angles, which repairs remove. Repairs in turn may bring inner nodes
 // close to wide boundary triangles, which opens the boundary again.
 template <int Dim>
-Outcome Simulation<Dim>::smooth(double fraction) {
-  std::int64_t sweeps = level_.settings.sweeps;
-  const auto refine = [this] {
-    const PopulationCounts counts = refine_boundary(level_);
+Outcome Simulation<Dim>::smooth(double fraction, std::int64_t sweeps, RefinedSurfaces surfaces) {
+  const auto refine = [&] {
+    const PopulationCounts counts = refine_boundary(level_, surfaces);
     run_.inserted += counts.inserted;
     run_.deleted += counts.deleted;
     return counts.inserted + counts.deleted > 0;

@@ -511,6 +511,68 @@ START_TEST(box_with_a_sheet_across) {
 }
 END_TEST
 
+/* The solids are as wide as d, so that nodes on their edges alone do not keep tetrahedra from
+ * crossing their sides. */
+static void add_bars(pnpbs_domain domain) {
+  const double low[2][3] = {{0, 0.4, 0.4}, {0.4, 0, 0.5}},
+               high[2][3] = {{1, 0.6, 0.6}, {0.6, 1, 0.7}};
+  int b;
+  for (b = 0; b < 2; ++b) MUST(pnpbs_domain_add_box(domain, low[b], high[b], 1));
+  MUST(pnpbs_domain_set_fragment(domain, PNPBS_OVERLAP_OWN));
+}
+
+START_TEST(bars_as_wide_as_d) {
+  job it = solids_job();
+  elements e;
+  add_bars(it.domain);
+  it = placed(it, 0.2);
+  e = elements_of(&it, 3);
+  ck_assert_double_eq_tol(measure_with(&e, 1), 0.036, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 2), 0.036, 1e-12);
+  ck_assert_double_eq_tol(measure_with(&e, 3), 0.004, 1e-12);
+  MUST(pnpbs_placement_check(it.placement));
+  ck_assert_int_eq(warnings_with(it.placement, "inner surfaces"), 0);
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* The nodes on a ball of radius d/2 are corners of a polyhedron, and its elements fill that. */
+START_TEST(ball_as_wide_as_d) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1}, middle[3] = {0.5, 0.5, 0.5};
+  job it = solids_job();
+  elements e;
+  int64_t k;
+  MUST(pnpbs_domain_add_box(it.domain, low, high, 1));
+  MUST(pnpbs_domain_add_ball(it.domain, middle, 0.15, 2));
+  MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+  it = placed(it, 0.3);
+  e = elements_of(&it, 3);
+  ck_assert_double_gt(measure_with(&e, 2), 0.5 * 4 * PI / 3 * 0.003375);
+  for (k = 0; k < e.n; ++k) {
+    int c, on = 0;
+    for (c = 0; c < 4; ++c) on += distance(e.x + 12 * k + 3 * c, middle) < 0.1501;
+    ck_assert_int_eq(e.tags[k], on == 4 ? 2 : 1);
+  }
+  elements_free(&e);
+  job_end(&it);
+}
+END_TEST
+
+/* Without rounds that reduce d, regions do not have their volumes. */
+START_TEST(regions_without_their_volumes) {
+  job it = solids_job();
+  add_bars(it.domain);
+  job_place(&it);
+  MUST(pnpbs_placement_set(it.placement, "conforming_rounds", "0"));
+  MUST(pnpbs_placement_set_spacing_constant(it.placement, 0.7));
+  ck_assert_int_eq(pnpbs_placement_run(it.placement), PNPBS_NOT_CONFORMING);
+  ck_assert_int_eq(pnpbs_placement_check(it.placement), PNPBS_NOT_CONFORMING);
+  ck_assert_int_eq(warnings_with(it.placement, "region"), 1);
+  job_end(&it);
+}
+END_TEST
+
 /* A ball that crosses a side of a box. A hole point removes the part outside of the box. Without
  * the part inside, the others would meet in a circle only. */
 START_TEST(ball_across_a_side) {
@@ -691,6 +753,9 @@ TEST_SUITE(test_regions) {
   tcase_add_test(good, boxes_that_touch);
   tcase_add_test(good, boxes_that_overlap);
   tcase_add_test(good, box_with_a_sheet_across);
+  tcase_add_test(good, bars_as_wide_as_d);
+  tcase_add_test(good, ball_as_wide_as_d);
+  tcase_add_test(good, regions_without_their_volumes);
   tcase_add_test(good, ball_across_a_side);
   tcase_add_test(good, cube_in_a_cube);
   tcase_add_test(good, box_with_a_wall_in_one_group);

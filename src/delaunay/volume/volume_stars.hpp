@@ -38,9 +38,9 @@ struct VolumeStarInput {
   // Returns a lower bound of the distance from a free node to the facets. If not set, none is
   // known.
   std::function<double(std::int64_t)> room = {};
-  // Returns whether four nodes, none of them free, lie adjacent on one surface. A flat tetrahedron
-  // of such nodes is not part of the domain if the surface is equally good without it. If not set,
-  // none do.
+  // Returns whether four nodes, none of them free, lie adjacent on one surface that bounds the
+  // domain. A flat tetrahedron of such nodes is not part of the domain if the surface is equally
+  // good without it. If not set, none do.
   std::function<bool(const std::array<std::int64_t, 4>&)> on_one_surface = {};
   // Returns whether two nodes, none of them free, are adjacent on a feature edge. If not set, none
   // are.

@@ -17,6 +17,7 @@
 #include "level/finish.hpp"
 #include "level/volume/added_nodes.hpp"
 #include "level/volume/blocking_nodes.hpp"
+#include "level/volume/inner_facets.hpp"
 #include "level/volume/open_faces.hpp"
 #include "level/volume/settled_elements.hpp"
 #include "level/volume/surface_level.hpp"
@@ -41,8 +42,8 @@ struct SurfaceBall {
   }
 };
 
-// The defects that refinement must reduce: boundary faces with inner nodes, and nodes without a
-// disk.
+// The defects that refinement must reduce: boundary faces with inner nodes, nodes without a disk,
+// and faces between tetrahedra that cross inner surfaces.
 struct BoundaryDefects {
   std::vector<SurfaceBall> balls;
   std::uint64_t count = 0;
@@ -67,36 +68,66 @@ std::int64_t corner_of_sheet(const Level<3>& level, const FaceCorners& by_id, st
   return found;
 }
 
-// Returns the ball of a face, with the same bits for each order of the corners. `from` is a node on
-// one sheet of the surface if the face leads to another sheet, else -1. Returns nothing if no
-// corner lies on a surface and none is near.
-std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corners,
-                                        std::int64_t from = -1) {
+// The smallest ball through the corners of a face.
+struct FaceBall {
+  Point<3> centre;
+  double radius;
+  std::array<std::int64_t, 3> ids;  // ids of the corners, ascending
+  Point<3> corner;                  // that with the smallest id
+};
+
+// Returns the ball of a face, with the same bits for each order of the corners. Sorts the corners
+// by their ids. Returns nothing if they lie on a line.
+std::optional<FaceBall> face_ball(const Level<3>& level, FaceCorners& corners) {
   const Nodes<3>& nodes = level.nodes;
   std::ranges::sort(corners, {}, [&](std::int64_t i) { return nodes.id(i); });
-  SurfaceBall ball{};
+  FaceBall ball{};
   std::array<Point<3>, 3> x;
   for (std::size_t k = 0; k < 3; ++k) {
     x[k] = nodes.position(corners[k]);
     ball.ids[k] = nodes.id(corners[k]);
   }
-  const Point<3> centre = circle_centre(x);
-  const double radius = distance<3>(centre, x[0]);
-  if (!(radius < std::numeric_limits<double>::infinity())) return {};  // collinear corners
+  ball.centre = circle_centre(x);
+  ball.radius = distance<3>(ball.centre, x[0]);
+  ball.corner = x[0];
+  if (!(ball.radius < std::numeric_limits<double>::infinity())) return {};
+  return ball;
+}
+
+SurfaceBall moved_to(const FaceBall& ball, const Point<3>& x, std::int32_t facet) {
+  return {distance<3>(x, ball.corner), ball.ids, x, facet};
+}
+
+// Returns the surface ball of a face. `from` is a node on one sheet of the surface if the face
+// leads to another sheet, else -1. Returns nothing if no corner lies on a surface and none is near.
+std::optional<SurfaceBall> surface_ball(const Level<3>& level, FaceCorners corners,
+                                        std::int64_t from = -1) {
+  const std::optional<FaceBall> ball = face_ball(level, corners);
+  if (!ball) return {};
   const Surface& surface = level.geometry.surface();
   const std::int64_t on_sheet = corner_of_sheet(level, corners, from);
   if (on_sheet >= 0) {
-    const SurfacePoint at = pull_back(surface, centre, nodes.boundary_node(on_sheet));
-    ball.x = at.position;
-    ball.facet = at.facet;
-  } else {
-    const NearestPoint<3> at = level.geometry.domain().index().nearest(centre, 2 * radius);
-    if (from >= 0 || at.facet < 0 || surface.patch(at.facet) < 0) return {};
-    ball.x = at.x;
-    ball.facet = at.facet;
+    const SurfacePoint at = pull_back(surface, ball->centre, level.nodes.boundary_node(on_sheet));
+    return moved_to(*ball, at.position, at.facet);
   }
-  ball.radius = distance<3>(ball.x, x[0]);
-  return ball;
+  const NearestPoint<3> at =
+      level.geometry.domain().index().nearest(ball->centre, 2 * ball->radius);
+  if (from >= 0 || at.facet < 0 || surface.patch(at.facet) < 0) return {};
+  return moved_to(*ball, at.x, at.facet);
+}
+
+// Returns the ball of a face between tetrahedra that cross an inner surface, with its centre on
+// this surface. Returns nothing if that lies beside a feature edge, where d must be smaller.
+std::optional<SurfaceBall> inner_surface_ball(const Level<3>& level, const InnerFacet& stray) {
+  FaceCorners corners = stray.nodes;
+  const std::optional<FaceBall> ball = face_ball(level, corners);
+  if (!ball) return {};
+  const Surface& surface = level.geometry.surface();
+  const SurfacePoint at = pull_back(surface, ball->centre, stray.facet);
+  const SurfaceBall moved = moved_to(*ball, at.position, at.facet);
+  const double room = method::kBallTaken * moved.radius;
+  if (surface.feature_clearance(at, room) < room) return {};
+  return moved;
 }
 
 // Adds the defects at node i. A face is counted at its node with the smallest id.
@@ -135,11 +166,22 @@ bool has_strays(const Level<3>& level, std::int64_t i) {
          lacks_disks(level, i, fan);
 }
 
-BoundaryDefects strays_of_own(const Level<3>& level) {
+BoundaryDefects strays_of_own(const Level<3>& level, RefinedSurfaces surfaces) {
   BoundaryDefects strays;
   for (const std::int64_t i : indices_where("pnpbs::strays_of_own", level.nodes.count,
                                             [&](std::int64_t k) { return has_strays(level, k); }))
     add_strays_at(level, i, strays);
+  if (surfaces == RefinedSurfaces::boundary) return strays;
+  for (const std::int64_t i :
+       indices_where("pnpbs::inner_strays", level.nodes.count, [&](std::int64_t k) {
+         return level.nodes.owned(k) != 0 && !InnerFacets(level).strays_at(k).empty();
+       })) {
+    InnerFacets facets(level);
+    for (const InnerFacet& stray : facets.strays_at(i)) {
+      ++strays.count;
+      if (const auto ball = inner_surface_ball(level, stray)) strays.balls.push_back(*ball);
+    }
+  }
   return strays;
 }
 
@@ -192,9 +234,9 @@ IncomingNodes<3> new_nodes(const Level<3>& level, const std::vector<SurfaceBall>
 
 // Returns the defects at the owned nodes. All ranks must call it, and if one rank throws, all ranks
 // throw.
-BoundaryDefects find_strays(Level<3>& level) {
+BoundaryDefects find_strays(Level<3>& level, RefinedSurfaces surfaces) {
   BoundaryDefects own;
-  collective_try(*level.comm, [&] { own = strays_of_own(level); });
+  collective_try(*level.comm, [&] { own = strays_of_own(level, surfaces); });
   return own;
 }
 
@@ -209,14 +251,14 @@ IncomingNodes<3> nodes_in_balls(Level<3>& level, const std::vector<SurfaceBall>&
 
 // Inserts nodes in rounds as long as the number of defects decreases. Returns the number of nodes
 // over all ranks. Collective.
-std::int64_t add_boundary_nodes(Level<3>& level) {
+std::int64_t add_boundary_nodes(Level<3>& level, RefinedSurfaces surfaces) {
   constexpr std::uint64_t kFew = method::kFewStrays;
   std::int64_t added = 0;
   std::uint64_t before = 0;
   for (int round = 0; round < method::kMaxBallRounds; ++round) {
     make_finish_stars(level, {});
     settle_elements(level, kQuickRounds);
-    const BoundaryDefects own = find_strays(level);
+    const BoundaryDefects own = find_strays(level, surfaces);
     const std::uint64_t strays = level.comm->allreduce_sum(own.count);
     if (strays == 0 || (round >= method::kBallRoundsAnyway && strays >= std::max(before, kFew)))
       break;
@@ -230,13 +272,13 @@ std::int64_t add_boundary_nodes(Level<3>& level) {
 
 }  // namespace
 
-PopulationCounts refine_boundary(Level<3>& level) {
+PopulationCounts refine_boundary(Level<3>& level, RefinedSurfaces surfaces) {
   const PhaseTimer timer(level.timers, Phase::conformity);
   PopulationCounts counts;
   if (level.geometry.kind() == GeometryKind::surface) return counts;
   std::int64_t nodes_off = std::numeric_limits<std::int64_t>::max();
   for (int round = 0; round <= method::kMaxBoundaryRounds; ++round) {
-    counts.inserted += add_boundary_nodes(level);
+    counts.inserted += add_boundary_nodes(level, surfaces);
     const std::int64_t removed =
         round < method::kMaxBoundaryRounds ? remove_blocking_nodes(level, nodes_off) : 0;
     counts.deleted += removed;

@@ -13,10 +13,15 @@
 
 namespace pnpbs {
 
-// Refines the boundary. Afterwards the level has the stars of the last round with settled elements,
-// or no stars. Returns the numbers of inserted and deleted nodes over all ranks. Does nothing in
-// the plane. All ranks must call it, and if one rank throws, all ranks throw.
-PopulationCounts refine_boundary(Level<3>& level);
-inline PopulationCounts refine_boundary(Level<2>&) { return {}; }
+// The surfaces at which nodes are inserted.
+enum class RefinedSurfaces { boundary, boundary_and_inner };
+
+// Refines the boundary. With inner surfaces, also inserts nodes on these at faces between
+// tetrahedra that cross them (inner_facets.hpp). Afterwards the level has the stars of the last
+// round with settled elements, or no stars. Returns the numbers of inserted and deleted nodes over
+// all ranks. Does nothing in the plane. All ranks must call it, and if one rank throws, all ranks
+// throw.
+PopulationCounts refine_boundary(Level<3>& level, RefinedSurfaces surfaces);
+inline PopulationCounts refine_boundary(Level<2>&, RefinedSurfaces) { return {}; }
 
 }  // namespace pnpbs
