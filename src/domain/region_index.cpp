@@ -114,8 +114,8 @@ std::int32_t RegionIndex<Dim>::tag_behind_nearest_facet(const Point<Dim>& x) con
 }
 
 // Sums the pyramids between the facets and the low corner of their box.
-template <int Dim>
-std::map<std::int32_t, double> RegionIndex<Dim>::volumes() const requires(Dim == 3) {
+template <>
+std::map<std::int32_t, double> RegionIndex<3>::volumes() const {
   Box<3> box = empty_box<3>();
   for (const RegionFacet<3>& facet : facets_)
     for (const Point<3>& corner : facet.corners) include<3>(box, corner);

@@ -39,8 +39,8 @@ class RegionIndex {
   const RegionFacet<Dim>& facet(std::int32_t f) const {
     return facets_[static_cast<std::size_t>(f)];
   }
-  // Returns the volume of the regions with each tag.
-  std::map<std::int32_t, double> volumes() const requires(Dim == 3);
+  // Returns the volume of the regions with each tag. Only in space.
+  std::map<std::int32_t, double> volumes() const;
 
  private:
   std::int32_t tag_behind_nearest_facet(const Point<Dim>& x) const;
@@ -50,6 +50,9 @@ class RegionIndex {
   double beyond_ = 0;  // first coordinate beyond all facets
   double near_ = 0;    // distance up to which facets are near a point
 };
+
+template <>
+std::map<std::int32_t, double> RegionIndex<3>::volumes() const;
 
 extern template class RegionIndex<2>;
 extern template class RegionIndex<3>;

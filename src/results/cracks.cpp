@@ -2,6 +2,7 @@
 #include "results/cracks.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -234,6 +235,14 @@ struct FacetNews {
   std::array<std::int64_t, 2> numbers;
 };
 
+// Returns those with these ids, from a list in the order of ids.
+template <class News, std::size_t N>
+std::span<const News> those_with(const std::vector<News>& news,
+                                 const std::array<std::int64_t, N>& ids) {
+  return {std::ranges::lower_bound(news, ids, {}, &News::ids),
+          std::ranges::upper_bound(news, ids, {}, &News::ids)};
+}
+
 // A node with copies.
 struct SplitNode {
   std::int64_t id, copies, first;  // number of the first copy
@@ -448,8 +457,7 @@ class CrackMaker {
       if (std::ranges::none_of(
               places, [this](std::int64_t place) { return may_be_split(results_.node_at(place)); }))
         return;
-      const auto news =
-          std::ranges::equal_range(elements_, sorted_ids(places), {}, &ElementNews<Dim>::ids);
+      const auto news = those_with(elements_, sorted_ids(places));
       if (news.empty()) return;
       typename Cracks<Dim>::Element element{places, {}};
       element.copies.fill(kOriginal);
@@ -482,7 +490,7 @@ class CrackMaker {
       }
   }
   auto news_of(const std::array<std::int64_t, Dim>& places) const {
-    return std::ranges::equal_range(facets_, sorted_ids(places), {}, &FacetNews<Dim>::ids);
+    return those_with(facets_, sorted_ids(places));
   }
 
   // Lists the copies, and replaces their numbers by indices into the list.

@@ -166,7 +166,7 @@ void find_meetings_of_curves(const std::vector<Point<3>>& positions,
   }
   const BoxTree<3> tree_of_curves(boxes);
   for (std::int32_t s = 0; s < static_cast<std::int32_t>(curves.size()); ++s) {
-    const auto& [a, b] = curves[index(s)].ends;
+    const std::int32_t a = curves[index(s)].ends[0], b = curves[index(s)].ends[1];
     const Segment ends = edge_between(a, b);
     tree.for_meeting(boxes[index(s)], [&](std::int32_t p) {
       const Corners& corners = pieces[index(p)].vertices;
@@ -277,7 +277,7 @@ class Splitting {
     for (const auto& [s, x] : on_curves_) within[index(s)].push_back(x);
     std::vector<ArrangedSegment> parts;
     for (std::size_t s = 0; s < curves.size(); ++s) {
-      const auto& [a, b] = curves[s].ends;
+      const std::int32_t a = curves[s].ends[0], b = curves[s].ends[1];
       if (const auto* inside = within_edge(edge_between(a, b)))
         within[s].insert(within[s].end(), inside->begin(), inside->end());
       const Point<3> along = difference(position(b), position(a));

@@ -218,7 +218,7 @@ bool NearContactSearch::add_contacts(std::int32_t p, const Corners& corners_p,
       contacts_.on_edges.emplace_back(segment, v);
   for (std::size_t i = 0; i < 3; ++i)
     add_crossing(edge_between(corners_p[i], corners_p[(i + 1) % 3]), segment);
-  const auto& [a, b] = locations;
+  const Location &a = locations[0], &b = locations[1];
   const bool along_one_edge = [&] {
     for (int k = 0; k < 3; ++k)
       if (on_edge(a, k) && on_edge(b, k)) return true;

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <map>
 #include <utility>
 
-#include "base/error.hpp"
-#include "base/point_text.hpp"
+#include "base/union_find.hpp"
 
 namespace pnpbs {
 
@@ -26,39 +25,19 @@ double twice_area_beside(const BoundaryCurve& curve) {
   return curve.left_inside ? area : -area;
 }
 
-// The connected parts of the boundary, as a root for each corner.
-class BoundaryParts {
- public:
-  explicit BoundaryParts(const ResolvedDomain& domain) : parents_(domain.corners.size()) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-    for (const BoundaryCurve& curve : domain.curves)
-      if (curve.bounds())
-        parents_[root(static_cast<std::size_t>(curve.corner_begin))] =
-            root(static_cast<std::size_t>(curve.corner_end));
-  }
-  std::size_t of(const BoundaryCurve& curve) {
-    return root(static_cast<std::size_t>(curve.corner_begin));
-  }
-
- private:
-  std::size_t root(std::size_t corner) {
-    while (parents_[corner] != corner) corner = parents_[corner] = parents_[parents_[corner]];
-    return corner;
-  }
-  std::vector<std::size_t> parents_;
-};
-
 // Returns the ends of all segments of the outline, sorted. The area that a part of the boundary
 // has on the side of the domain is positive if the part surrounds the domain, and negative around a
 // hole.
 std::vector<Ends> segments_of_outline(const ResolvedDomain& domain) {
-  BoundaryParts parts(domain);
-  std::vector<double> areas(domain.corners.size(), 0);
+  UnionFind<std::int64_t> parts(domain.corners.size());
   for (const BoundaryCurve& curve : domain.curves)
-    if (curve.bounds()) areas[parts.of(curve)] += twice_area_beside(curve);
+    if (curve.bounds()) parts.join(curve.corner_begin, curve.corner_end);
+  std::map<std::int64_t, double> areas;
+  for (const BoundaryCurve& curve : domain.curves)
+    if (curve.bounds()) areas[parts.root(curve.corner_begin)] += twice_area_beside(curve);
   std::vector<Ends> segments;
   for (const BoundaryCurve& curve : domain.curves) {
-    if (!curve.bounds() || areas[parts.of(curve)] <= 0) continue;
+    if (!curve.bounds() || areas[parts.root(curve.corner_begin)] <= 0) continue;
     for (std::size_t p = 0; p + 1 < curve.points.size(); ++p)
       segments.push_back(in_order(curve.points[p], curve.points[p + 1]));
   }
