@@ -162,6 +162,16 @@ std::vector<Solids::Passage> Solids::passages_through(
   return passages;
 }
 
+std::vector<char> Solids::ends_of_solids(const Triangulation& pieces,
+                                         const std::vector<CoveredTriangle>& parts) const {
+  std::vector<char> ends;
+  for (const Passage& passage : passages_through(pieces, parts))
+    ends.push_back(!passage.gained.empty() && passage.walls.empty());
+  for (const auto& [t, part] : parts)
+    if (membership(part).solid < 0) ends[index(t)] = 0;
+  return ends;
+}
+
 std::vector<std::vector<std::int32_t>> Solids::around(const Triangulation& pieces,
                                                       const std::vector<CoveredTriangle>& parts,
                                                       const SurfaceRegions& regions) const {

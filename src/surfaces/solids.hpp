@@ -52,6 +52,11 @@ class Solids {
                                                 const std::vector<CoveredTriangle>& parts,
                                                 const SurfaceRegions& regions) const;
 
+  // Returns 1 for each piece on which solids end or overlap themselves, and on which nothing else
+  // lies, else 0. If the same solids contain both of its sides, parts of a solid overlap there.
+  std::vector<char> ends_of_solids(const Triangulation& pieces,
+                                   const std::vector<CoveredTriangle>& parts) const;
+
  private:
   enum class Kind : char {
     wound_around,  // contains the points around which its triangles wind

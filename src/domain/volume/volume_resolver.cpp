@@ -385,6 +385,9 @@ class Resolver {
       inside_.push_back(!solids.empty());
     }
     tags_ = tags_by_solids(around, overlap_);
+    in_overlap_ = solids_->ends_of_solids(surface_, parts_);
+    for (std::int32_t t = 0; t < triangle_count(); ++t)
+      if (around[regions.front(t)] != around[regions.back(t)]) in_overlap_[t] = 0;
   }
 
   // Pieces of several solids can have any orientation, so turning them is not worth a warning.
@@ -524,6 +527,10 @@ class Resolver {
         ++left_out[triangle.source];
         continue;
       }
+      if (is_in_overlap(t)) {
+        kept_[t] = 1;
+        continue;
+      }
       if (front && !back) {
         triangle.turn_around();
         std::swap(front, back);
@@ -552,6 +559,11 @@ class Resolver {
       if (left_out[s] > 0)
         names.push_back(std::to_string(left_out[s]) + " triangles of " + surfaces_[s].name);
     warn_of_left_out(names);
+  }
+
+  // Returns whether a triangle lies where parts of one solid overlap, which become one.
+  bool is_in_overlap(std::int32_t t) const {
+    return splits() && in_overlap_[t] != 0 && region_tags_[front_[t]] == region_tags_[back_[t]];
   }
 
   void warn_of_left_out(const std::vector<std::string>& names) {
@@ -650,6 +662,7 @@ class Resolver {
   std::optional<Solids> solids_;            // if surfaces are split
   std::vector<CoveredTriangle> parts_;      // of all solids, as they were given
   SolidTags tags_;
+  std::vector<char> in_overlap_;      // per triangle: do parts of one solid overlap there?
   std::vector<char> kept_;            // per triangle: is it part of the domain?
   std::vector<char> on_surface_;      // per vertex: does a triangle have it?
   std::vector<std::int32_t> number_;  // per vertex: its mesh node, or -1
