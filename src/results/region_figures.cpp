@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <map>
+#include <utility>
 
 #include "base/exact_sum.hpp"
 #include "base/index.hpp"
@@ -44,30 +46,66 @@ double measure_of(const Results<Dim>& results, std::array<std::int64_t, Dim + 1>
   }
 }
 
+// A node of an element with this tag.
+struct NodeTag {
+  std::int64_t id;
+  std::int32_t tag;
+
+  auto operator<=>(const NodeTag&) const = default;
+};
+
+// Adds the elements of this rank to the shares. Returns each of their nodes once per tag.
 template <int Dim>
-std::map<std::int32_t, Share> own_shares(const Results<Dim>& results) {
-  std::map<std::int32_t, Share> shares;
+std::vector<NodeTag> add_elements(const Results<Dim>& results,
+                                  std::map<std::int32_t, Share>& shares) {
+  constexpr std::int64_t kNone = std::int64_t{1} << 40;  // no tag has this value
+  std::vector<std::int64_t> first(static_cast<std::size_t>(results.held()), kNone);
+  std::vector<NodeTag> nodes;  // with tags other than the first ones, perhaps several times
+  const auto id = [&](std::int64_t place) {
+    return results.level().nodes.id(results.node_at(place));
+  };
   ElementRegions<Dim> region_of(results);
-  std::vector<std::int32_t> at_node;
-  for (std::int64_t place = 0; place < results.count(); ++place) {
-    at_node.clear();
-    results.level().stars.for_simplices(results.node_at(place),
-                                        [&](const typename Stars<Dim>::Corners& others) {
-                                          std::array<std::int64_t, Dim + 1> places{place};
-                                          for (std::size_t k = 0; k < Dim; ++k)
-                                            places[k + 1] = results.place_of(others[k]);
-                                          at_node.push_back(region_of(places));
-                                        });
-    std::ranges::sort(at_node);
-    at_node.erase(std::unique(at_node.begin(), at_node.end()), at_node.end());
-    for (const std::int32_t tag : at_node) ++shares[tag].nodes;
-  }
   results.for_elements([&](const std::array<std::int64_t, Dim + 1>& places) {
-    Share& share = shares[region_of(places)];
+    const std::int32_t tag = region_of(places);
+    Share& share = shares[tag];
     ++share.elements;
     share.measure.add(measure_of<Dim>(results, places));
+    for (const std::int64_t place : places) {
+      if (first[index(place)] == kNone) first[index(place)] = tag;
+      if (first[index(place)] != tag) nodes.push_back({id(place), tag});
+    }
   });
-  return shares;
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (std::int64_t place = 0; place < results.held(); ++place)
+    if (first[index(place)] != kNone)
+      nodes.push_back({id(place), static_cast<std::int32_t>(first[index(place)])});
+  return nodes;
+}
+
+// Adds the nodes to the shares of their owners. Collective.
+template <int Dim>
+void add_nodes(const Results<Dim>& results, std::vector<NodeTag> nodes,
+               std::map<std::int32_t, Share>& shares) {
+  const Communicator& comm = results.communicator();
+  if (comm.size() > 1) {
+    Outbox outbox;
+    collective_try(comm, [&] {
+      std::map<std::int64_t, int> owners;  // of ghosts
+      for (std::int64_t place = results.count(); place < results.held(); ++place) {
+        const std::int64_t i = results.node_at(place);
+        owners.emplace(results.level().nodes.id(i), results.owner_of(i));
+      }
+      for (const NodeTag& node : nodes) {
+        const auto ghost = owners.find(node.id);
+        pack(outbox.to(ghost == owners.end() ? comm.rank() : ghost->second), node);
+      }
+    });
+    nodes = deliver<NodeTag>(comm, outbox);
+    std::ranges::sort(nodes);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  for (const NodeTag& node : nodes) ++shares[node.tag].nodes;
 }
 
 }  // namespace
@@ -78,11 +116,11 @@ std::vector<RegionFigures> region_figures(Results<Dim>& results) {
   const Communicator& comm = results.communicator();
   results.prepare_stars();
   std::map<std::int32_t, Share> shares;
+  std::vector<NodeTag> nodes;
+  collective_try(comm, [&] { nodes = add_elements(results, shares); });
+  add_nodes(results, std::move(nodes), shares);
   std::vector<std::int32_t> tags;
-  collective_try(comm, [&] {
-    shares = own_shares(results);
-    for (const auto& [tag, share] : shares) tags.push_back(tag);
-  });
+  for (const auto& [tag, share] : shares) tags.push_back(tag);
   tags = of_all_ranks(comm, tags);
   std::ranges::sort(tags);
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
