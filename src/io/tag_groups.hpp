@@ -24,8 +24,9 @@ class TagGroups {
     ++group.count;
     for (const Point<3>& x : corners)
       for (std::size_t k = 0; k < 3; ++k) {
-        group.low[k] = std::min(group.low[k], x[k]);
-        group.high[k] = std::max(group.high[k], x[k]);
+        // The sum is never -0, which would make the text depend on the order of nodes.
+        group.low[k] = std::min(group.low[k], x[k] + 0.0);
+        group.high[k] = std::max(group.high[k], x[k] + 0.0);
       }
   }
 

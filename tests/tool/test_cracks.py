@@ -271,7 +271,9 @@ class Cracks(CommandTest):
         plane = self.options("a.poly", poly([(0, 0.5), (0.5, 0.5), (1, 0.5), (0.5, 0.1), (0.5, 0.9)],
                                             [(5, 6, CRACK), (6, 7, CRACK), (8, 6, 8), (6, 9, 8)]),
                              0.03, "--crack", 8)
-        space = self.options("b.smesh", smesh((ACROSS, CRACK)), 0.1, "--fragment")
+        # Zeros of either sign must not make the bounding boxes of groups depend on ranks.
+        sheet = [(-0.0, 0, 0.5), *ACROSS[1:]]
+        space = self.options("b.smesh", smesh((sheet, CRACK)), 0.1, "--fragment")
         for options in (plane, space):
             files = set()
             for ranks in (1, 2, 3):
