@@ -111,6 +111,8 @@ bool elements_conform(Results<3>& results, RunState& run, Unresolved<3>& unresol
                               conformity.faults());
   unresolved = {};
   unresolved.faults = conformity.element_faults();
+  unresolved.inner_only =
+      conformity.fills() && conformity.boundary.agrees() && !conformity.divides();
   if (conformity.holds()) {
     find_small_angles(results.level(), run, unresolved);
     return true;

@@ -40,18 +40,18 @@ std::vector<double> spacing_at(const Level<Dim>& level,
 }
 
 // Returns points with the d that they require: half of d at unresolved points. Adds the narrow
-// points of the surface near these if there have been several rounds already, and those of the
-// whole body if there are no unresolved points. Collective.
+// points of the surface near these if `with_narrow` is true, and those of the whole body if there
+// are no unresolved points. Collective.
 template <int Dim>
 std::vector<GrowthSource<Dim>> places_to_hold(const Level<Dim>& level,
                                               const std::vector<Point<Dim>>& unresolved,
-                                              std::int64_t round) {
+                                              bool with_narrow) {
   std::vector<GrowthSource<Dim>> places;
   for (const Point<Dim>& x : unresolved) places.push_back({x, 0});
   const std::vector<double> d = spacing_at(level, places);
   for (std::size_t k = 0; k < places.size(); ++k) places[k].d = d[k];
   std::vector<GrowthSource<Dim>> result;
-  if (places.empty() || round > method::kRoundsOfHalves) result = narrow_points(level, places);
+  if (places.empty() || with_narrow) result = narrow_points(level, places);
   for (const GrowthSource<Dim>& place : places)
     result.push_back({place.x, method::kHeldTo * place.d});
   return result;
@@ -111,8 +111,10 @@ bool add_unresolved_points(const Level<Dim>& level, const Unresolved<Dim>& unres
             : static_cast<std::int64_t>(comm.allreduce_sum(unresolved.places.size()));
   if (found > std::max(global_count(), small ? kFewElements : std::int64_t{0})) return false;
   if (held.rounds++ == 0) held.start_nodes = global_count();
+  // Layers inside a body may be thinner than d: nodes opposite each other suffice there.
+  const bool with_narrow = held.rounds > method::kRoundsOfHalves && !unresolved.inner_only;
   const std::vector<GrowthSource<Dim>> wanted =
-      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), held.rounds);
+      places_to_hold<Dim>(level, gathered<Dim>(comm, unresolved.places), with_narrow);
   const std::vector<double> d = spacing_at(level, wanted);
   if (held.rounds == 1 && !d.empty()) held.least_before = *std::ranges::min_element(d);
   const double finest = resolution_of(level.geometry.domain());

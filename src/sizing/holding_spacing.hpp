@@ -32,6 +32,8 @@ struct Unresolved {
   // Number of elements with small angles, over all ranks; 0 if elements do not conform.
   std::int64_t small_angles = 0;
   ElementFaults faults;  // faults of the elements of all ranks
+  // Whether the elements fill the domain and only cross surfaces inside.
+  bool inner_only = false;
 };
 
 // Adds the points where d must be smaller because of this round. Returns false if none exist,

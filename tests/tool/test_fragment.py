@@ -124,6 +124,23 @@ class Fragment(CommandTest):
             hashes.add((report["hash"], json.dumps(report["by_region"])))
         self.assertEqual(len(hashes), 1)
 
+    @unittest.skipUnless(os.environ.get("PNPBS_MPIEXEC"), "no MPI")
+    def test_nodes_at_coarse_inner_surfaces_are_the_same_on_any_ranks(self):
+        bars = self.folder / "bars.stl"
+        bars.write_text(solid("along", box((0, 0.4, 0.4), (1, 0.6, 0.6)))
+                        + solid("across", box((0.4, 0, 0.5), (0.6, 1, 0.7))))
+        for model, spacing, reduced in ((bars, 0.2, False), (self.model, 0.4, True)):
+            reports = []
+            for ranks in (1, 2, 3):
+                self.run_on_ranks("--domain", model, "--fragment", "own", "--spacing", spacing,
+                                  "--report", "report.json", "--output", "a.vtu", ranks=ranks)
+                reports.append(json.loads((self.folder / "report.json").read_text()))
+            self.assertEqual(len({report["hash"] for report in reports}), 1)
+            self.assertEqual("is reduced there" in json.dumps(reports[0]["warnings"]), reduced)
+            found = volumes_by_region(self.folder / "a.vtu")
+            for tag, volume in enumerate((0.036, 0.036, 0.004) if model is bars else (), 1):
+                self.assertAlmostEqual(found[tag], volume, 12)
+
     def test_messages_name_the_option(self):
         self.assertIn("--fragment", self.refuse("--domain", self.model, "--spacing", 0.12))
         for options, words in ((["--fragment", "all"], "expected last, first or own"),

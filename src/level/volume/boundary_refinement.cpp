@@ -178,6 +178,10 @@ BoundaryDefects strays_of_own(const Level<3>& level, RefinedSurfaces surfaces) {
        })) {
     InnerFacets facets(level);
     for (const InnerFacet& stray : facets.strays_at(i)) {
+      // Faces without inner nodes mostly join feature edges, which need a smaller d instead.
+      if (std::ranges::none_of(
+              stray.nodes, [&](std::int64_t j) { return level.nodes.carrier(j) == Carrier::free; }))
+        continue;
       ++strays.count;
       if (const auto ball = inner_surface_ball(level, stray)) strays.balls.push_back(*ball);
     }
