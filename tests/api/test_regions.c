@@ -662,6 +662,42 @@ START_TEST(box_with_a_wall_in_one_group) {
 }
 END_TEST
 
+/* A curve goes through stacked boxes and leaves them, another one and a fixed node lie on the
+ * common face. */
+START_TEST(curves_and_nodes_across_surfaces) {
+  const double low[2][3] = {{0, 0, 0}, {0, 0, 1}}, high[2][3] = {{1, 1, 1}, {1, 1, 2}};
+  const double through[6] = {0.25, 0.25, -1, 0.75, 0.5, 3},
+               on_face[6] = {0.25, 0.5, 1, 0.75, 0.75, 1}, fixed[3] = {0.75, 0.25, 1};
+  const double nodes_at[6][3] = {{0.375, 0.3125, 0}, {0.5, 0.375, 1}, {0.625, 0.4375, 2},
+                                 {0.25, 0.5, 1},     {0.75, 0.75, 1}, {0.75, 0.25, 1}};
+  job it = solids_job();
+  double volume, *x;
+  int64_t nodes, k, i, found;
+  for (k = 0; k < 2; ++k) MUST(pnpbs_domain_add_box(it.domain, low[k], high[k], 1));
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, through, NULL, 0));
+  MUST(pnpbs_domain_add_polyline(it.domain, PNPBS_INNER, 0, 2, on_face, NULL, 0));
+  MUST(pnpbs_domain_add_fixed_nodes(it.domain, 1, fixed, NULL));
+  ck_assert_int_eq(pnpbs_domain_check(it.domain), PNPBS_ERROR_DOMAIN);
+  MUST(pnpbs_domain_set_snap(it.domain, 1e-6));
+  MUST_FAIL(PNPBS_ERROR_DOMAIN, pnpbs_domain_check(it.domain), "set_snap", "set_fragment");
+  MUST(pnpbs_domain_set_fragment(it.domain, PNPBS_OVERLAP_LAST));
+  MUST(pnpbs_domain_measure(it.domain, &volume));
+  ck_assert_double_eq_tol(volume, 2, 1e-12);
+  it = placed(it, 0.2);
+  MUST(pnpbs_placement_count(it.placement, &nodes));
+  x = malloc((size_t)(3 * nodes) * sizeof *x);
+  ck_assert_ptr_nonnull(x);
+  MUST(pnpbs_placement_get_nodes(it.placement, nodes, x, NULL, NULL, NULL));
+  for (i = 0; i < 6; ++i) {
+    found = 0;
+    for (k = 0; k < nodes; ++k) found += distance(x + 3 * k, nodes_at[i]) < 1e-9;
+    ck_assert_int_eq(found, 1);
+  }
+  free(x);
+  job_end(&it);
+}
+END_TEST
+
 START_TEST(bad_fragmentation) {
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
   job it = solids_job();
@@ -759,6 +795,7 @@ TEST_SUITE(test_regions) {
   tcase_add_test(good, ball_across_a_side);
   tcase_add_test(good, cube_in_a_cube);
   tcase_add_test(good, box_with_a_wall_in_one_group);
+  tcase_add_test(good, curves_and_nodes_across_surfaces);
   tcase_add_test(bad, bad_fragmentation);
   tcase_add_test(bad, bad_input);
   tcase_add_test(bad, surfaces_alone_have_none);
