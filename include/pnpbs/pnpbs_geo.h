@@ -104,9 +104,10 @@ PNPBS_API pnpbs_status pnpbs_geo_destroy(pnpbs_geo_shapes *shapes);
  *  does, points as pnpbs_domain_add_fixed_nodes does, names of tags for dimension 1. Curves that
  *  cross or do not close are found by pnpbs_domain_check; see pnpbs_geo_explain. May be called for
  *  several domains. If the domain splits curves where they meet (pnpbs_domain_set_fragment), say so
- *  before: polygons that are regions then have a point in each of their parts. Shapes for a sphere, which have no projection to report, are for any
- *  sphere with the same point outside. For a second layer of the same domain, read it with the
- * projection of the first (pnpbs_geo_projection). Local.
+ *  before: polygons that are regions then have a point in each of their parts. Shapes for a sphere,
+ *  which have no projection to report, are for any sphere with the same point outside. For a second
+ *  layer of the same domain, read it with the projection of the first (pnpbs_geo_projection).
+ * Local.
  *  @param[in] context       of the domain
  *  @param[in] corner_angle  degrees, 0 .. 180, as in pnpbs_domain_add_polyline. 0: every vertex
  *                           becomes a node */
