@@ -674,12 +674,12 @@ module pnpbs_c
       integer(c_int) :: c_domain_parse_poly
     end function
 
-    function c_domain_tag_outline(domain, where, user, tag, count) bind(C, &
+    function c_domain_tag_outline(domain, level_set, user, tag, count) bind(C, &
       name="pnpbs_domain_tag_outline")
       import
       implicit none
       type(c_ptr), value :: domain
-      type(c_funptr), value :: where ! pnpbs_level_set_fn
+      type(c_funptr), value :: level_set ! pnpbs_level_set_fn
       type(c_ptr), value :: user ! void *
       integer(c_int32_t), value :: tag
       integer(c_int64_t), intent(out) :: count
