@@ -71,6 +71,8 @@ set(PNPBS_TESTS_OF_sanitize
 
 # Long searches with a new seed each day, studies of many runs, and long tests of what shorter ones
 # cover too: recorded node sets on all numbers of ranks are those of parallel_node_hashes.
-set(PNPBS_TESTS_OF_nightly parallel_hunt.* parallel_invariance parallel_volume_invariance parallel_soak_8 api_closing
-                           bench_bodies bench_compare bench_compare_bodies bench_loose_pieces
-                           bench_random_bodies bench_sliding bench_space_scaling bench_spheres bench_studies)
+set(PNPBS_TESTS_OF_nightly
+    parallel_hunt.* parallel_invariance parallel_mpi_errors_2 parallel_soak_8 parallel_volume_conformity
+    parallel_volume_invariance api_closing
+    bench_bodies bench_compare bench_compare_bodies bench_loose_pieces bench_random_bodies bench_sliding
+    bench_space_scaling bench_spheres bench_studies)
