@@ -109,7 +109,7 @@ class NodeFields(CommandTest):
                 (("--field", "a=dist(hole)"), "--field a: dist(hole): the domain has no group"),
                 (("--field", "a=1/dist"), "--field a: expected finite values, found inf at (0, 0)"),
                 (("--spacing-grid", "h=h.asc", "--field", "a=x"),
-                 "--spacing-grid: no formula of --spacing and --field uses 'h'")):
+                 "--spacing-grid: no formula of --spacing, --field and --open-boundary uses 'h'")):
             with self.subTest(more):
                 # The error comes before the run, which would take long.
                 message = self.refuse("--domain", self.square, "--spacing", "0.004", *more)
