@@ -64,7 +64,7 @@ set(PNPBS_TESTS_OF_sanitize
     parallel_volume_conformity_3 parallel_volume_halo parallel_volume_nodes parallel_volume_partition
     parallel_voronoi_cells parallel_wide_sums
     linkage_.* mutate_.* volume_files
-    command_bodies_cut_open command_elements_on_boundary command_grids command_groups
+    command_bodies_cut_open command_cracks command_elements_on_boundary command_grids command_groups
     command_hdf5_files command_input command_mpas command_node_fields command_node_volumes
     command_polygon_regions command_ranks_failing command_rasters command_regions command_simplify
     command_spacing_files command_stopping command_terminal)
