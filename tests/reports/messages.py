@@ -90,7 +90,7 @@ CASES = [
                                 ("LineString", [[100, 100], [900, 900]], "fault A"),
                                 ("LineString", [[100, 900], [900, 100]], "fault B"))},
          "--domain a.geojson " + IN_PLANE, **GEO,
-         says=("cross at (500, 500) (feature 1, feature 2)\n", "Give lines a common vertex"),
+         says=("cross at (500, 500) (feature 1, feature 2)\n", "Let --fragment (pnpbs_domain_set_fragment) split lines"),
          omits=("Unite",)),
     Case("the names of lines that cross",
          {"a.geojson": features(polygon("block", SQUARE),
@@ -101,7 +101,7 @@ CASES = [
     Case("a line that crosses the outline of a polygon",
          {"a.geojson": features(polygon("block", SQUARE),
                                 ("LineString", [[500, 500], [1500, 500]], "fault"))},
-         "--domain a.geojson " + IN_PLANE, **GEO, says=("Give lines a common vertex",),
+         "--domain a.geojson " + IN_PLANE, **GEO, says=("Let --fragment (pnpbs_domain_set_fragment) split lines",),
          omits=("Unite",)),
     Case("neighbouring polygons whose common edge differs",
          {"a.geojson": features(
@@ -166,8 +166,8 @@ CASES = [
     *[Case(f"a block as large as {times} d in a box",
            {"a.obj": blocks(box=((0, 0, 0), (1, 1, 1)), block=((0.1, 0.2, 0.2), (0.4, 0.8, 0.8)))},
            f"--domain a.obj --inner block --region 0.2,0.5,0.5:7 --spacing {0.3 / times}", **outcome)
-      for times, outcome in ((1, {"says": ("percent of the inner surfaces: tetrahedra cross these",)}),
-                             (3, {"omits": ("inner surfaces",)}))],
+      for times, outcome in ((1, {"says": ("d is reduced around them",), "omits": ("inner surfaces",)}),
+                             (3, {"omits": ("inner surfaces", "d is reduced")}))],
 
     # ------------------------------------------------ counts
     Case("vertices that are left out",
