@@ -16,8 +16,12 @@ geo=OFF
 
 # The build tools, NumPy and mpi4py are those of the environment of the tests.
 cp -r "$bindings" "$work/bindings"
-"$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
-  -C cmake.define.PNPBS_LIBRARY="$library" -C cmake.define.PNPBS_ENABLE_GEO=$geo -w "$work" "$work/bindings"
+# build <folder> <ON: with the library of shapes, or OFF>
+build() {
+  "$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
+    -C cmake.define.PNPBS_LIBRARY="$library" -C cmake.define.PNPBS_ENABLE_GEO="$2" -w "$1" "$work/bindings"
+}
+build "$work" $geo
 # The build must not leave files in the source folder.
 diff -r -x __pycache__ "$bindings" "$work/bindings"
 # install <environment> <wheel>
@@ -82,7 +86,8 @@ if ! "$python" -c 'import auditwheel' 2> /dev/null || ! command -v patchelf > /d
   echo "== skipped: a wheel that holds everything, which needs auditwheel and patchelf"
   exit 77
 fi
-"$python" -m auditwheel repair -w "$work/repaired" "$work"/pnpbs-*.whl > log 2>&1 || { cat log; exit 1; }
+build "$work/plain" OFF
+"$python" -m auditwheel repair -w "$work/repaired" "$work"/plain/pnpbs-*.whl > log 2>&1 || { cat log; exit 1; }
 install "$work/alone" "$work"/repaired/pnpbs-*manylinux*.whl
 # All libraries except those of the C library and of the compiler must be in the wheel.
 find "$site" -name 'lib*.so*' | while read -r library; do
