@@ -67,8 +67,7 @@ const std::vector<InnerFacet>& InnerFacets::at(std::int64_t i) {
 
 const std::vector<InnerFacet>& InnerFacets::around(std::int64_t i) {
   found_.clear();
-  if (any_ && is_held(i))
-    judge_faces(i, Of::all_nodes, [&](std::int64_t j) { return is_held(j); });
+  if (any_ && is_held(i)) judge_faces(i, Of::all_nodes, [&](std::int64_t j) { return is_held(j); });
   return found_;
 }
 
