@@ -237,8 +237,9 @@ void NamedGrids::require_use_in(const std::vector<std::string>& formulas) const 
     for (const std::string& formula : formulas)
       if (mentions(formula, name) || mentions(formula, slope_name(name))) return;
     throw BadInput(option + ": " +
-                   (formulas.size() > 1 ? "no formula of --spacing, --field and --open-boundary uses '"
-                                        : "the formula of --spacing does not use '") +
+                   (formulas.size() > 1
+                        ? "no formula of --spacing, --field and --open-boundary uses '"
+                        : "the formula of --spacing does not use '") +
                    name + "'");
   };
   for (const auto& grid : grids_)
