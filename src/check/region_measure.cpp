@@ -26,10 +26,12 @@ class RegionMeasuring : public VolumeNodeCheck {
   explicit RegionMeasuring(const Results<3>& results) : VolumeNodeCheck(results), tags_(results) {}
 
   std::vector<RegionMeasure> all() {
-    for (const auto& [tag, volume] : geometry_.domain().regions()->volumes())
-      measures_[tag].measure.domain = volume;
-    for_owned([&](std::int64_t i) {
-      if (!is_far_from_facets(level_, i)) add_faces_of(i);
+    collective_try(comm_, [&] {
+      for (const auto& [tag, volume] : geometry_.domain().regions()->volumes())
+        measures_[tag].measure.domain = volume;
+      for_owned([&](std::int64_t i) {
+        if (!is_far_from_facets(level_, i)) add_faces_of(i);
+      });
     });
     constexpr double kRounding = 1e-9;  // relative to the domain
     std::vector<RegionMeasure> result;

@@ -78,9 +78,12 @@ std::vector<Point<3>> points_of_crossed_surfaces(const Level<3>& level,
         for (const InnerFacet& stray : facets.strays_at(i))
           for (const std::int64_t j : stray.nodes) points.push_back(level.nodes.position(j));
   });
-  if (level.comm->allreduce_sum(points.size()) == 0)
-    for (const RegionMeasure& region : conformity.regions)
-      points.insert(points.end(), region.corners.begin(), region.corners.end());
+  const bool any_crossed = level.comm->allreduce_sum(points.size()) > 0;
+  collective_try(*level.comm, [&] {
+    if (!any_crossed)
+      for (const RegionMeasure& region : conformity.regions)
+        points.insert(points.end(), region.corners.begin(), region.corners.end());
+  });
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
