@@ -374,6 +374,25 @@ PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double r
  *  @param[in] overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN */
 PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 
+/** Makes the domain a box that repeats itself along some axes. Across these axes there is no
+ *  boundary: bubbles on both sides of a seam act on each other. The other sides of the box are
+ *  boundaries. Closed curves and surfaces in the box are holes, cavities or, with the role
+ *  PNPBS_INNER or as fragments, inclusions; they may extend beyond a periodic side, and stand for
+ *  all their copies. The spacing is evaluated at points of the box only, and continued by its
+ *  periods. Nodes lie in the box, low <= x < high along a periodic axis.
+ *
+ *  Coordinates of nodes along periodic axes are multiples of 2^-51 times the extent of the domain,
+ *  and the period is rounded to such a multiple: the images of a node differ exactly by it, and the
+ *  node set is the same on any number of ranks. Not on a sphere, nor for surfaces alone, level sets
+ *  and inner curves in space. Local. Errors: PNPBS_ERROR_ARGUMENT; pnpbs_placement_run returns
+ *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.
+ *  @param[in] low, high  [dim] corners of the box
+ *  @param[in] periodic   [dim] nonzero along the axes on which the domain is periodic
+ *  @param[in] tags       [2 dim] tags of the other sides, low x, high x, low y, ...; NULL: all 1 */
+PNPBS_API pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double *low,
+                                                 const double *high, const int32_t *periodic,
+                                                 const int32_t *tags);
+
 /** Adds straight segments through n vertices. Local.
  *  @param[in] role          PNPBS_BOUNDARY or PNPBS_INNER; in space PNPBS_INNER
  *  @param[in] closed        nonzero: a segment joins the last vertex to the first; the first vertex

@@ -127,6 +127,26 @@ pnpbs_status pnpbs_domain_read_surface(pnpbs_domain domain, int32_t role, const 
   });
 }
 
+pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double* low, const double* high,
+                                       const int32_t* periodic, const int32_t* tags) {
+  return change_domain(domain, [&](DomainObject& object) {
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    require_pointer(periodic, "periodic");
+    visit_dimension(object, [&]<class Domain>(Domain& changed) {
+      constexpr int kDim = std::is_same_v<Domain, PlaneDomain> ? 2 : 3;
+      Box<kDim> box;
+      std::array<bool, kDim> axes;
+      for (std::size_t k = 0; k < kDim; ++k) {
+        box.low[k] = low[k];
+        box.high[k] = high[k];
+        axes[k] = periodic[k] != 0;
+      }
+      changed.set_periodic(box, axes, tags);
+    });
+  });
+}
+
 pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double* low, const double* high,
                                   int32_t tag) {
   return change_volume(domain, [&](VolumeDomain& volume) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/execution.hpp"
+#include "base/periodic_cell.hpp"
 #include "base/rank_limit.hpp"
 #include "base/types.hpp"
 
@@ -73,6 +74,7 @@ struct Nodes {
   NodeArray<std::int32_t> reference_on;   // in space: boundary_node at the last event
   NodeArray<char> owned;                  // 0: a ghost, owned by another rank
   Carrier moving = Carrier::free;         // nodes with this carrier move, all others stay
+  PeriodicCell<Dim> cell;                 // of a periodic domain
 
   std::int64_t capacity() const { return static_cast<std::int64_t>(d.extent(0)) - 1; }
 
@@ -146,10 +148,11 @@ struct Nodes {
   // Writes the attributes of an owned node at rest at index i, which must be within the capacity.
   void put(std::int64_t i, const Point<Dim>& position, double spacing, std::int64_t node_id,
            std::int32_t node_tag, Carrier node_carrier, std::int32_t on_boundary) {
+    const Point<Dim> at = cell.rounded(position);
     for (int k = 0; k < Dim; ++k) {
-      x[k](i) = position[k];
+      x[k](i) = at[k];
       v[k](i) = 0;
-      reference[k](i) = position[k];
+      reference[k](i) = at[k];
     }
     d(i) = spacing;
     id(i) = node_id;
@@ -181,8 +184,19 @@ struct Nodes {
 
   Point<Dim> position(std::int64_t i) const { return point_at<Dim>(x, i); }
   void set_position(std::int64_t i, const Point<Dim>& p) {
-    for (int k = 0; k < Dim; ++k) x[k](i) = p[k];
+    const Point<Dim> at = cell.rounded(p);
+    for (int k = 0; k < Dim; ++k) x[k](i) = at[k];
   }
+  // Returns the position of node i after a move. In a periodic domain it differs exactly by the
+  // periods from that of an image of the node after the same move.
+  Point<Dim> position_after(std::int64_t i, const Point<Dim>& move) const {
+    const Point<Dim> way = cell.rounded(move);
+    Point<Dim> to;
+    for (int k = 0; k < Dim; ++k) to[k] = x[k](i) + way[k];
+    return to;
+  }
+  // Returns the number of a node, which is part of its id and the same for all of its images.
+  std::int64_t number(std::int64_t i) const { return cell.number_of(id(i)); }
   bool moves(std::int64_t i) const { return carrier(i) == moving; }
 
   // Reorders the nodes: the node at new index i is the one that was at index from(i). Arrays are

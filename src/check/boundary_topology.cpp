@@ -63,8 +63,13 @@ BoundaryTopology boundary_topology(const Results<3>& results, std::vector<Point<
   result.torn = over_ranks(results.communicator(), result.torn);
   result.torn_on_surfaces = results.communicator().allreduce_sum(on_surfaces) > 0;
   result.euler = euler_of_boundary(level);
-  result.euler_of_domain = euler_of_surfaces(level);
   result.pieces = pieces_of_boundary(level);
+  if (level.geometry.cell().any()) {  // the surfaces are those of several copies
+    result.euler_of_domain = result.euler;
+    result.pieces_of_domain = result.pieces;
+    return result;
+  }
+  result.euler_of_domain = euler_of_surfaces(level);
   result.pieces_of_domain = pieces_of_surfaces(level);
   return result;
 }

@@ -29,14 +29,14 @@ class CornerCheck {
   void look_at(std::int64_t corner, const Corners& others) {
     const Corners key = key_of(others);
     if (!level_.nodes.owned(corner))
-      elsewhere_.push_back({level_.nodes.id(corner), key, check_.owner_of(corner)});
+      elsewhere_.push_back(wanted_of(corner, others));
     else if (!star_has(corner, key))
       fail(check_.name(corner), [&](std::size_t k) { return check_.name(others[k]); });
   }
 
   // Checks the stars of other ranks. Collective.
   void check_on_other_ranks() const {
-    if (level_.comm->size() == 1) return;
+    if (!level_.distributed()) return;
     for (const Wanted& wanted : redistribute(*level_.comm, elsewhere_, [](const Wanted& sent) {
            return static_cast<int>(sent.owner);
          })) {
@@ -62,6 +62,17 @@ class CornerCheck {
     for (std::size_t k = 0; k < Others; ++k) ids[k] = level_.nodes.id(corners[k]);
     if constexpr (Others == 3) std::ranges::sort(ids);
     return ids;
+  }
+
+  // Returns what the star of an image or of a node on another rank must have, with the ids that
+  // nodes have where that node itself lies.
+  Wanted wanted_of(std::int64_t corner, const Corners& others) const {
+    const Nodes<Dim>& nodes = level_.nodes;
+    const std::int64_t of = nodes.id(corner), shift = nodes.cell.home_id(of) - of;
+    Corners ids;
+    for (std::size_t k = 0; k < Others; ++k) ids[k] = nodes.id(others[k]) + shift;
+    if constexpr (Others == 3) std::ranges::sort(ids);
+    return {of + shift, ids, check_.owner_of(corner)};
   }
 
   bool star_has(std::int64_t i, const Corners& key) const {

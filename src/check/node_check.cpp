@@ -96,6 +96,14 @@ bool NodeCheck<Dim>::lists(std::int64_t i, std::int64_t id) const {
   return found;
 }
 
+// Returns the pair of an owned node i and a ghost j as the owner of j knows it.
+template <int Dim>
+typename NodeCheck<Dim>::ListedPair NodeCheck<Dim>::pair_at_owner(std::int64_t i,
+                                                                  std::int64_t j) const {
+  const std::int64_t of = nodes_.id(j), shift = nodes_.cell.home_id(of) - of;
+  return {of + shift, nodes_.id(i) + shift, owner_of(j)};
+}
+
 template <int Dim>
 void NodeCheck<Dim>::check_lists() const {
   std::vector<ListedPair> elsewhere;
@@ -114,10 +122,10 @@ void NodeCheck<Dim>::check_lists() const {
       if (nodes_.owned(j))
         require_listed(j, nodes_.id(i));
       else
-        elsewhere.push_back({nodes_.id(j), nodes_.id(i), owner_of(j)});
+        elsewhere.push_back(pair_at_owner(i, j));
     });
   });
-  if (comm_.size() == 1) return;
+  if (!level_.distributed()) return;
   for (const ListedPair& pair :
        redistribute(comm_, elsewhere, [](const ListedPair& listed) { return listed.owner; })) {
     const std::int64_t i = owned_node(pair.of);

@@ -52,6 +52,7 @@ class NodeCheck {
     std::int32_t owner;       // rank that owns `of`
   };
 
+  ListedPair pair_at_owner(std::int64_t i, std::int64_t j) const;
   Point<Dim> position(std::int64_t i) const { return nodes_.position(i); }
   template <class Visit>
   void for_owned(const Visit& visit) const {

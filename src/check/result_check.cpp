@@ -76,7 +76,9 @@ void ResultCheck::check_boundary_nodes() const {
   check_placed_once(
       std::move(times), [this](std::size_t b) { return laid(b); },
       [this](std::size_t b) {
-        return level_.margin != PatchMargin::laid && level_.geometry.domain().is_in_margin(laid(b));
+        return !level_.geometry.boundary_node_in_cell(static_cast<std::int64_t>(b)) ||
+               (level_.margin != PatchMargin::laid &&
+                level_.geometry.domain().is_in_margin(laid(b)));
       });
 }
 
@@ -186,9 +188,84 @@ Enclosed enclosed_by(const Boundary& boundary, const Box<2>& bounds) {
   return sum;
 }
 
+// The boundary edges of one period of a periodic domain, from one node to the next. They begin in
+// the cell and may leave it.
+class EdgesOfPeriod {
+ public:
+  explicit EdgesOfPeriod(const LevelGeometry<2>& geometry)
+      : geometry_(geometry),
+        boundary_(geometry.boundary()),
+        edges_(boundary_.nodes.size()),
+        seen_(boundary_.nodes.size(), 0) {
+    for (const BoundaryEdge& e : boundary_.facets) {
+      if (!e.bounds()) continue;
+      edges_[static_cast<std::size_t>(e.begin)].push_back(&e);
+      edges_[static_cast<std::size_t>(e.end)].push_back(&e);
+    }
+  }
+
+  // Calls visit(edge) for one of the images of each edge. Consecutive edges have common nodes.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (std::size_t b = 0; b < boundary_.nodes.size(); ++b)
+      if (geometry_.boundary_node_in_cell(static_cast<std::int64_t>(b)))
+        follow(static_cast<std::int32_t>(b), visit);
+  }
+
+ private:
+  template <class Visit>
+  void follow(std::int32_t first, const Visit& visit) {
+    std::vector<std::int32_t> open;
+    reach(first, open);
+    while (!open.empty()) {
+      const std::int32_t b = open.back();
+      open.pop_back();
+      for (const BoundaryEdge* e : edges_[static_cast<std::size_t>(b)]) {
+        if (e->begin == b) visit(*e);
+        reach(e->begin == b ? e->end : e->begin, open);
+      }
+    }
+  }
+  void reach(std::int32_t b, std::vector<std::int32_t>& open) {
+    char& seen = seen_[static_cast<std::size_t>(geometry_.images_of_boundary_nodes().number(b))];
+    if (!seen) open.push_back(b);
+    seen = 1;
+  }
+
+  const LevelGeometry<2>& geometry_;
+  const Boundary& boundary_;
+  std::vector<std::vector<const BoundaryEdge*>> edges_;  // by node
+  std::vector<char> seen_;                               // by number of the node
+};
+
+// Returns the area of one period by Green's theorem, as the integral of one coordinate along the
+// other, periodic one. Where both are periodic, it follows up to multiples of the cell's area.
+Enclosed enclosed_in_period(const LevelGeometry<2>& geometry) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const PeriodicCell<2>& cell = geometry.cell();
+  const std::size_t along = cell.periodic(0) ? 0 : 1, across = 1 - along;
+  Enclosed sum;
+  EdgesOfPeriod(geometry).for_each([&](const BoundaryEdge& e) {
+    const Point<2>&a = geometry.boundary().nodes[static_cast<std::size_t>(e.begin)].position,
+          &b = geometry.boundary().nodes[static_cast<std::size_t>(e.end)].position;
+    const double height = 0.5 * (a[across] + b[across]) - cell.box().low[across];
+    const double term = (along == 0 ? -height : height) * (b[along] - a[along]);
+    sum.area += e.left_inside ? term : -term;
+    sum.rounding += 8 * kEpsilon * std::fabs(term);
+  });
+  if (cell.periodic(0) && cell.periodic(1)) {
+    const double all = cell.period(0) * cell.period(1);
+    sum.area -= all * (std::ceil(sum.area / all) - 1);
+    sum.rounding += 8 * kEpsilon * all;
+  }
+  return sum;
+}
+
 void ResultCheck::check_area() const {
   constexpr double kTolerance = 1e-9;
-  const Enclosed enclosed = enclosed_by(boundary_, level_.geometry.bounds());
+  const Enclosed enclosed = level_.geometry.cell().any()
+                                ? enclosed_in_period(level_.geometry)
+                                : enclosed_by(boundary_, level_.geometry.bounds());
   if (!(enclosed.area > enclosed.rounding)) return;  // too thin to be measured
   const double area = area_of_triangles(enclosed.area);
   if (std::fabs(area - enclosed.area) <= kTolerance * enclosed.area + enclosed.rounding) return;

@@ -66,7 +66,9 @@ void VolumeNodeCheck::check_feature_nodes() const {
   });
   check_placed_once(
       std::move(times), [this](std::size_t n) { return laid(n); },
-      [](std::size_t) { return false; });
+      [this](std::size_t n) {
+        return !geometry_.feature_node_in_cell(static_cast<std::int32_t>(n));
+      });
 }
 
 double VolumeNodeCheck::max_gap(const std::array<Point<3>, 3>& corners) const {

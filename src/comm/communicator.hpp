@@ -94,11 +94,16 @@ class Communicator {
   // number of messages of a rank and not with the number of ranks.
   virtual std::vector<Message> sparse_all_to_all(const std::vector<Message>& outgoing) const = 0;
 
+  // Allocates memory for this number of messages to and from neighbours in an exchange. More
+  // messages than ranks require it. Local.
+  virtual void reserve_messages(std::size_t) const {}
   // Sends outgoing[k] to rank neighbours[k] and returns the messages of the neighbours in the same
-  // order. Neighbours must name each other in calls at the same time. Messages may be empty.
-  // Collective, without a reduction at the beginning: the ranks agree on failures once the sizes
-  // are known. `failure` is the failure of this rank's preceding work, or null. Afterwards only MPI
-  // can fail, and only the ranks that lack a message throw.
+  // order. Neighbours must name each other in calls at the same time. A rank may be named several
+  // times, and may be this one: of the messages from one rank, the first to arrive is the first
+  // that was sent. Messages may be empty. Collective, without a reduction at the beginning: the
+  // ranks agree on failures once the sizes are known. `failure` is the failure of this rank's
+  // preceding work, or null. Afterwards only MPI can fail, and only the ranks that lack a message
+  // throw.
   virtual std::vector<Bytes> exchange(const std::vector<int>& neighbours,
                                       const std::vector<Bytes>& outgoing,
                                       std::exception_ptr failure) const = 0;

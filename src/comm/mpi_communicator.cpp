@@ -101,6 +101,13 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   int ranks_on_node() const override { return ranks_on_node_; }
 
+  void reserve_messages(std::size_t count) const override {
+    if (count <= sizes_in_.size()) return;
+    messages_.reserve(2 * count);
+    sizes_out_.resize(count);
+    sizes_in_.resize(count);
+  }
+
   // The sizes are exchanged first. Then each rank allocates its memory, and the messages are sent
   // only if all ranks have succeeded.
   std::vector<Bytes> exchange(const std::vector<int>& neighbours,

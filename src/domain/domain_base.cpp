@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "domain/domain_base.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 
 namespace pnpbs {
@@ -18,6 +20,25 @@ void DomainBase<Dim>::add_fixed_nodes(std::int64_t n, const double* coordinates,
   for (std::size_t i = 0; i < points.size(); ++i)
     given_nodes_.push_back(
         {points[i], values[i], "fixed node " + std::to_string(given_nodes_.size())});
+  checked_ = false;
+}
+
+template <int Dim>
+void DomainBase<Dim>::set_periodic(const Box<Dim>& box, const std::array<bool, Dim>& periodic,
+                                   const std::int32_t* tags) {
+  given_values::require_point<Dim>("low", box.low);
+  given_values::require_point<Dim>("high", box.high);
+  for (std::size_t k = 0; k < Dim; ++k)
+    if (!(box.low[k] < box.high[k]))
+      given_values::reject("low[" + std::to_string(k) + "] is " + number_text(box.low[k]) +
+                           ", not less than high[" + std::to_string(k) +
+                           "] = " + number_text(box.high[k]));
+  if (std::ranges::count(periodic, true) == 0)
+    given_values::reject("periodic has no axis along which the domain is periodic");
+  const std::vector<std::int32_t> of_sides = read_tags("tags", 2 * Dim, tags);
+  cell_ = PeriodicCell<Dim>(box, periodic);
+  std::ranges::copy(of_sides, side_tags_.begin());
+  for (std::size_t k = 0; k < Dim; ++k) copies_[k] = periodic[k];
   checked_ = false;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/periodic_cell.hpp"
 #include "base/types.hpp"
 #include "base/warning.hpp"
 #include "formats/group_names.hpp"
@@ -59,12 +60,31 @@ class DomainBase {
   const GroupNames& names() const { return names_; }
 
   bool is_checked() const { return checked_; }
+  // Makes the domain the box, and periodic along these axes. The curves and surfaces that are given
+  // lie in the box or cross its periodic sides, and stand for all their translated copies. The
+  // other sides of the box are boundaries, with tags in the order low x, high x, low y and so on;
+  // null means that all are 1.
+  void set_periodic(const Box<Dim>& box, const std::array<bool, Dim>& periodic,
+                    const std::int32_t* tags);
+  // Returns the cell of a periodic domain.
+  const PeriodicCell<Dim>& cell() const { return cell_; }
+  // Resolves so many copies of a periodic domain on each side of its cell. Images of nodes have
+  // positions there, so the copies must reach as far as the computations at a node do.
+  void set_copies(const Image<Dim>& copies) {
+    checked_ = checked_ && copies == copies_;
+    copies_ = copies;
+  }
 
  protected:
   std::vector<FixedNode<Dim>> given_nodes_;
   std::vector<RegionPoint<Dim>> region_points_;
   std::vector<Warning> given_warnings_;
   bool checked_ = false;
+  // The cell of a periodic domain, the tags of its sides that bound the domain (low x, high x, low
+  // y and so on), and how many copies of it on each side check() resolves along each axis.
+  PeriodicCell<Dim> cell_;
+  std::array<std::int32_t, 2 * Dim> side_tags_{};
+  Image<Dim> copies_{};
 
  private:
   GroupNames names_;

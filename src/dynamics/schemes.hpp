@@ -41,8 +41,8 @@ inline void clamp_move(std::array<double, Dim>& move, double max_length) {
 template <int Dim, class Law>
 inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std::int64_t first,
                         int n, const Positions<Dim>& x, const double* d, const Carrier* carrier,
-                        Carrier moving, const std::array<double*, Dim>& v,
-                        const std::array<double*, Dim>& next) {
+                        Carrier moving, const PeriodicCell<Dim>& cell,
+                        const std::array<double*, Dim>& v, const std::array<double*, Dim>& next) {
   const double slow = 1 / (1 + motion.damping * motion.dt);
   BlockVector<Dim> move;
   double too_far = 0;
@@ -66,6 +66,9 @@ inline void damped_move(const BlockVector<Dim>& force, const Motion& motion, std
     clamp_move<Dim>(of_lane, motion.max_move * d[first + lane]);
     for (int k = 0; k < Dim; ++k) move[k][lane] = of_lane[k];
   }
+  for (int k = 0; k < Dim; ++k)
+    for (int lane = 0; cell.periodic(k) && lane < n; ++lane)
+      move[k][lane] = cell.rounded(move[k][lane]);
   const double per_time = 1 / motion.dt;
 #pragma omp simd
   for (int lane = 0; lane < n; ++lane)
@@ -95,7 +98,8 @@ void damped_step(Nodes<Dim>& nodes, const AdjacencyList<Dim>& lists, const Law& 
     block_force<Dim>(lists.block(b), law, x, d, self, force);
     const std::int64_t first = b * kLanes;
     const int n = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
-    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.carrier.data(), nodes.moving, v, to);
+    damped_move<Dim, Law>(force, motion, first, n, x, d, nodes.carrier.data(), nodes.moving,
+                          nodes.cell, v, to);
   });
 }
 
@@ -142,8 +146,9 @@ void stage_state(const Nodes<Dim>& nodes, double h, double max_move, const Field
     std::array<double, Dim> move;
     for (int k = 0; k < Dim; ++k) move[k] = h * slope_x[k](i);  // slope_x may be v itself
     clamp_move<Dim>(move, max_move * nodes.d(i));
+    const Point<Dim> to = nodes.position_after(i, move);
     for (int k = 0; k < Dim; ++k) {
-      x[k](i) = nodes.x[k](i) + move[k];
+      x[k](i) = to[k];
       v[k](i) = nodes.v[k](i) + h * slope_v[k](i);
     }
   });
@@ -170,9 +175,10 @@ void take_slopes(Nodes<Dim>& nodes, const Motion& motion, const Stages<Dim>& sta
     std::array<double, Dim> move;
     for (int k = 0; k < Dim; ++k) move[k] = mobile * motion.dt * stages.sum_x[k](i);
     clamp_move<Dim>(move, motion.max_move * nodes.d(i));
+    const Point<Dim> to = nodes.position_after(i, move);
     for (int k = 0; k < Dim; ++k) {
       nodes.v[k](i) = mobile * (nodes.v[k](i) + motion.dt * stages.sum_v[k](i));
-      next[k](i) = nodes.x[k](i) + move[k];
+      next[k](i) = to[k];
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "base/execution.hpp"
 #include "base/lattice.hpp"
@@ -54,6 +55,12 @@ struct LeavesNearBoundary {
   double points_per_leaf = 1;         // Number of sample points per leaf, inside or not.
 };
 
+// Returns whether nodes lie in a leaf, and not only images of them.
+template <int Dim>
+bool counts(const SizedTree<Dim>& map, std::int32_t leaf) {
+  return !map.leaf_outside(leaf) && map.tree().in_periodic_cell(leaf);
+}
+
 template <int Dim>
 bool near_boundary(const SizedTree<Dim>& map, const BoundaryRoom<Dim>& boundary,
                    std::int32_t leaf) {
@@ -70,7 +77,7 @@ LeavesNearBoundary<Dim> leaves_near_boundary(const SizedTree<Dim>& map,
   const bool many = samples == Samples::many;
   LeavesNearBoundary<Dim> near;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf)
-    if (!map.leaf_outside(leaf) && near_boundary(map, boundary, leaf)) near.leaves.push_back(leaf);
+    if (counts(map, leaf) && near_boundary(map, boundary, leaf)) near.leaves.push_back(leaf);
   const double wanted =
       (many ? kManySamples : kFewSamples) / std::max(1.0, static_cast<double>(near.leaves.size()));
   std::size_t facets = 0;  // Upper bound of the facets that a test for inside examines.
@@ -99,7 +106,7 @@ template <int Dim>
 double room_inside(const SizedTree<Dim>& map, double measure, const SpacingEvaluator<Dim>& spacing,
                    const BoundaryRoom<Dim>& boundary, Samples samples) {
   const auto volume_of = [&](std::int32_t leaf) {
-    return power<Dim>(map.tree().cell_side(map.tree().leaf_cell(leaf)));
+    return map.tree().cell_measure(map.tree().leaf_cell(leaf));
   };
   const LeavesNearBoundary<Dim> near = leaves_near_boundary(map, boundary, samples);
   std::vector<double> d(near.inside.size());
@@ -113,7 +120,7 @@ double room_inside(const SizedTree<Dim>& map, double measure, const SpacingEvalu
   double room = 0, room_crossed = 0;
   std::size_t next = 0;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
-    if (map.leaf_outside(leaf)) continue;
+    if (!counts(map, leaf)) continue;
     const double volume = volume_of(leaf), of_leaf = map.leaf_spacing(leaf);
     if (next == near.leaves.size() || near.leaves[next] != leaf) {
       inside += volume;
@@ -137,7 +144,7 @@ template <int Dim>
 SpacingSummary<Dim> range_of_spacing(const SizedTree<Dim>& map) {
   SpacingSummary<Dim> range;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
-    if (map.leaf_outside(leaf)) continue;
+    if (!counts(map, leaf)) continue;
     range.min = std::min(range.min, map.leaf_min_spacing(leaf));
     range.max = std::max(range.max, map.leaf_max_spacing(leaf));
   }
@@ -166,7 +173,9 @@ Packing packing(const SizedTree<3>& map, const VolumeDomain& domain, bool stretc
   if (!domain.filled())
     return {Lattice<2>::kDensity / (varied ? power<3>(kEdgesOnSurfaces) : 1), 0};
   if (varied) return {1.61, 0.48};
-  const CubicLattice lattice(d.min, domain.bounds(), true, stretched);
+  const PeriodicCell<3>& cell = domain.cell();
+  const CubicLattice lattice(d.min, cell.any() ? cell.box() : domain.bounds(), true, stretched,
+                             cell);
   const double density = lattice.density() * power<3>(d.min);
   const bool off = std::fabs(std::cbrt(density / method::kA15Density) - 1) > kOff;
   return {off ? method::kA15Density : density, stretched && !off ? 0.45 : method::kFillClearance};
@@ -176,7 +185,7 @@ Packing packing(const SizedTree<3>& map, const VolumeDomain& domain, bool stretc
 double room_on_surfaces(const SizedTree<3>& map, double area) {
   double crossed = 0, nodes = 0;  // Sums over one face of each leaf.
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
-    if (map.leaf_outside(leaf)) continue;
+    if (!counts(map, leaf)) continue;
     const double side = map.tree().cell_side(map.tree().leaf_cell(leaf)),
                  d = map.leaf_spacing(leaf);
     crossed += side * side;
@@ -196,19 +205,26 @@ double nodes_in(const SizedTree<Dim>& map, const Domain<Dim>& domain,
   return packed.density * room_inside<Dim>(map, measure_of(domain), evaluator, boundary, samples);
 }
 
+template <int Dim>
+bool is_in_cell(const PeriodicCell<Dim>& cell, const std::type_identity_t<Point<Dim>>& x) {
+  return !cell.any() || cell.image_of(x) == Image<Dim>{};
+}
+
 // Nodes that close a sphere replace inner nodes and are not counted.
 double nodes_on_boundary(const PlaneDomain& domain, const BoundaryMesh<2>& boundary,
                          const SpacingEvaluator<2>&) {
-  return static_cast<double>(std::ranges::count_if(
-      boundary.nodes,
-      [&](const BoundaryNode<2>& node) { return !domain.is_in_patch(node.position); }));
+  return static_cast<double>(
+      std::ranges::count_if(boundary.nodes, [&](const BoundaryNode<2>& node) {
+        return !domain.is_in_patch(node.position) && is_in_cell(domain.cell(), node.position);
+      }));
 }
 
-double nodes_on_boundary(const VolumeDomain&, const BoundaryMesh<3>& boundary,
+double nodes_on_boundary(const VolumeDomain& domain, const BoundaryMesh<3>& boundary,
                          const SpacingEvaluator<3>& spacing) {
   std::vector<FacetCorners<3>> facets;
   for (const BoundaryTriangle& facet : boundary.facets)
-    facets.push_back(corners_of(boundary, facet));
+    if (is_in_cell(domain.cell(), centroid(corners_of(boundary, facet))))
+      facets.push_back(corners_of(boundary, facet));
   return nodes_on_triangles(std::move(facets), spacing);
 }
 
@@ -234,7 +250,8 @@ NodeEstimate<Dim> estimate_nodes(const Communicator& comm, const Domain<Dim>& do
   double max = std::numeric_limits<double>::infinity(), nodes = 0;
   for (int pass = 0; pass < passes; ++pass) {
     map.build_part(
-        comm, domain.bounds(), boundary, evaluator, std::numeric_limits<std::int64_t>::max(),
+        comm, TreeBounds<Dim>(domain.bounds(), domain.cell()), boundary, evaluator,
+        std::numeric_limits<std::int64_t>::max(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double in_cell) {
           return tree.cell(c).depth < kUniformDepth || in_cell > max ||
                  domain.embedding().varies_much_in(tree.cell_box(c));

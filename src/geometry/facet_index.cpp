@@ -32,8 +32,11 @@ FacetCells<Dim>::FacetCells(const BoundaryMesh<Dim>& mesh) : mesh_(mesh) {
 
 template <int Dim>
 void FacetCells<Dim>::add_root(const BackgroundTree<Dim>& tree) {
-  // Strictly outside the bounding box of the domain.
-  references_.push_back({tree.origin(), false});
+  // Strictly outside the bounding box of the domain. The root of a periodic domain begins at it.
+  Point<Dim> outside = tree.origin();
+  if (tree.periodic_cell().any())
+    for (double& x : outside) x -= tree.side() / 2048;
+  references_.push_back({outside, false});
   facets_.resize(corners_.size());
   std::iota(facets_.begin(), facets_.end(), 0);
   offset_.push_back(facets_.size());

@@ -57,11 +57,17 @@ GradedFill<Dim>::GradedFill(const SizedTree<Dim>& map,
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
     if (!is_steep(map, leaf) || !wanted(leaf)) continue;
     const Box<Dim> box = tree.cell_box(tree.leaf_cell(leaf));
-    const double side = tree.cell_side(tree.leaf_cell(leaf)) / kCellsAcross;
+    const bool stretched = tree.aspect() != 1;
+    const double side = (stretched ? root<Dim>(tree.cell_measure(tree.leaf_cell(leaf)))
+                                   : tree.cell_side(tree.leaf_cell(leaf))) /
+                        kCellsAcross;
     leaves_.push_back({leaf, side, centres_.size(), centres_.size()});
     for (int place = 0; place < kCellsPerLeaf<Dim>; ++place) {
       Point<Dim> x;
-      for (int k = 0; k < Dim; ++k) x[k] = box.low[k] + side * (column_of<Dim>(place, k) + 0.5);
+      for (int k = 0; k < Dim; ++k) {
+        const double along = stretched ? (box.high[k] - box.low[k]) / kCellsAcross : side;
+        x[k] = box.low[k] + along * (column_of<Dim>(place, k) + 0.5);
+      }
       if (map.inside_in_leaf(leaf, x)) centres_.push_back(x);
     }
     leaves_.back().end = centres_.size();

@@ -18,12 +18,14 @@ namespace {
 class HexagonalRows {
  public:
   // The origin is the low corner of the box. If one lattice fills the whole domain, it is stretched
-  // slightly so that rows end at the sides of the box.
-  HexagonalRows(double d, const Box<2>& bounds, bool whole)
+  // slightly so that rows end at the sides of the box, or continue across the sides of a periodic
+  // cell.
+  HexagonalRows(double d, const Box<2>& bounds, const PeriodicCell<2>& cell, bool whole)
       : low_(bounds.low), step_(d), row_(d * std::sqrt(0.75)) {
     if (!whole) return;
+    const double rows = cell.periodic(1) ? 2 : 1;  // every second row is shifted
     step_ = fitted(step_, bounds.high[0] - bounds.low[0]);
-    row_ = fitted(row_, bounds.high[1] - bounds.low[1]);
+    row_ = fitted(rows * row_, bounds.high[1] - bounds.low[1]) / rows;
   }
 
   // Calls visit(x) for all nodes in the box and for some beside it.
@@ -66,8 +68,8 @@ template <int Dim>
 SpacingSummary<Dim> summary_of_leaf(const SizedTree<Dim>& map, std::int32_t c) {
   const std::int32_t leaf = map.tree().cell(c).leaf;
   SpacingSummary<Dim> own;
-  if (map.leaf_outside(leaf)) return own;
-  own.measure = power<Dim>(map.tree().cell_side(c));
+  if (map.leaf_outside(leaf) || !map.tree().in_periodic_cell(leaf)) return own;
+  own.measure = map.tree().cell_measure(c);
   own.min = map.leaf_min_spacing(leaf);
   own.max = map.leaf_max_spacing(leaf);
   own.nodes = own.measure / power<Dim>(map.leaf_spacing(leaf));
@@ -111,8 +113,10 @@ class Fill {
 
   const FillLattice<Dim>& begin_patch(std::optional<FillLattice<Dim>>& lattice, double d,
                                       bool whole) const {
-    if constexpr (Dim == 2) return lattice.emplace(d, bounds_, whole);
-    if constexpr (Dim == 3) return lattice.emplace(d, bounds_, whole, stretched_);
+    const PeriodicCell<Dim>& cell = map_.tree().periodic_cell();
+    const Box<Dim>& box = cell.any() ? cell.box() : bounds_;
+    if constexpr (Dim == 2) return lattice.emplace(d, box, cell, whole);
+    if constexpr (Dim == 3) return lattice.emplace(d, box, whole, stretched_, cell);
   }
 
   // Only fine_box_holds() decides to which leaf a node on a common border belongs. It uses the same

@@ -12,7 +12,7 @@ template <int Dim>
 void update_without_agreement(Level<Dim>& level) {
   count_inexact_nodes(level);
   const PhaseTimer timer(level.timers, Phase::exchange);
-  level.ghosts.update(level.nodes);
+  level.ghosts.update(*level.tree, level.nodes);
 }
 
 }  // namespace
@@ -52,6 +52,7 @@ void update_ghosts(Level<Dim>& level) {
 template <int Dim>
 void scatter_to_owners(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   if (!level.distributed()) return;
+  for (IncomingNode<Dim>& node : incoming) node.position = level.nodes.cell.in_cell(node.position);
   const auto owner_of = [&](const IncomingNode<Dim>& node) {
     return level.tree->owner_at(node.position);
   };

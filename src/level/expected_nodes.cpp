@@ -49,7 +49,8 @@ std::vector<double> wanted_nodes(const Level<Dim>& level) {
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
     if (level.tree->owns(leaf) && !map.leaf_outside(leaf))
       (map.leaf_has_facets(leaf) ? crossed : inside) += map.leaf_size(leaf);
-  const double unit = power<Dim>(std::ldexp(tree.side(), -SizedTree<Dim>::kSizeDepth));
+  const double unit =
+      tree.aspect() * power<Dim>(std::ldexp(tree.side(), -SizedTree<Dim>::kSizeDepth));
   const double area_inside = unit * static_cast<double>(level.comm->allreduce_sum(inside)),
                area_crossed = unit * static_cast<double>(level.comm->allreduce_sum(crossed));
   const double share =
@@ -58,12 +59,11 @@ std::vector<double> wanted_nodes(const Level<Dim>& level) {
           : 0;
   std::vector<double> wanted;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-    const double d = map.leaf_spacing(leaf), side = tree.cell_side(tree.leaf_cell(leaf));
+    const double d = map.leaf_spacing(leaf), measure = tree.cell_measure(tree.leaf_cell(leaf));
     const double part = !level.tree->owns(leaf) || map.leaf_outside(leaf) ? 0
                         : map.leaf_has_facets(leaf)                       ? share
                                                                           : 1;
-    wanted.push_back(part > 0 ? part * Lattice<Dim>::kDensity * power<Dim>(side) / power<Dim>(d)
-                              : 0);
+    wanted.push_back(part > 0 ? part * Lattice<Dim>::kDensity * measure / power<Dim>(d) : 0);
   }
   return wanted;
 }

@@ -40,7 +40,7 @@ std::vector<LeafSummary<Dim>> summaries_of_unrefined_leaves(const Level<Dim>& le
   });
   std::vector<LeafSummary<Dim>> unrefined;
   for (std::int32_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
-    if (!distribution.refined(leaf))
+    if (!distribution.refined(leaf) && tree.in_periodic_cell(leaf))
       unrefined.push_back({leaf, summaries[static_cast<std::size_t>(distribution.cell_of(leaf))]});
   return unrefined;
 }

@@ -23,7 +23,7 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Packs a star into 64-bit words: a distance within which all its nodes lie, the number of the
 // following words, and the star with ids in place of nodes.
-void pack_star(const Level<3>& level, std::int32_t i, Bytes& bytes) {
+void pack_star(const Level<3>& level, std::int32_t i, const Translation<3>& to, Bytes& bytes) {
   constexpr double kRoundingMargin = 1 + 1e-9;
   const Nodes<3>& nodes = level.nodes;
   double square = 0;
@@ -34,7 +34,7 @@ void pack_star(const Level<3>& level, std::int32_t i, Bytes& bytes) {
   std::vector<std::int64_t> words{std::bit_cast<std::int64_t>(kRoundingMargin * std::sqrt(square)),
                                   std::ssize(star)};
   VolumeStars::renumber(
-      star, [&](std::int32_t j) { return nodes.id(j); }, words);
+      star, [&](std::int32_t j) { return to.id(nodes.id(j)); }, words);
   for (const std::int64_t word : words) pack(bytes, word);
 }
 
@@ -102,7 +102,10 @@ void receive_ghost_stars(Level<3>& level, int rings,
     {
       const PhaseTimer timer(level.timers, Phase::exchange);
       received = level.ghosts.receive_from_owners(
-          *level.comm, wanted, [&](std::int32_t i, Bytes& bytes) { pack_star(level, i, bytes); },
+          *level.comm, wanted,
+          [&](std::int32_t i, const Translation<3>& to, Bytes& bytes) {
+            pack_star(level, i, to, bytes);
+          },
           failure);
     }
     attempt(failure, [&] { store_stars(received, by_id, request, level.stars, nodes.count); });

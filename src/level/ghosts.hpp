@@ -14,6 +14,7 @@
 #include "level/level_tree.hpp"
 #include "level/neighbourhood.hpp"
 #include "partition/halo_exchange.hpp"
+#include "partition/packed_node.hpp"
 #include "settings/settings.hpp"
 
 namespace pnpbs {
@@ -39,7 +40,7 @@ class Ghosts {
   // Sends positions and velocities of the present ghosts, which are exact afterwards. All
   // neighbours must call it at the same time, without an agreement. Throws only on a rank that
   // lacks values.
-  void update(Nodes<Dim>& nodes);
+  void update(const LevelTree<Dim>& tree, Nodes<Dim>& nodes);
   // Fills the values at ghosts with those of their owners. All ranks must call it.
   void fill(const Communicator& comm, const View<double>& values) const {
     halo_.fill(comm, values);
@@ -50,7 +51,8 @@ class Ghosts {
   void fetch(const Communicator& comm, const LevelTree<Dim>& tree,
              const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes, const Buckets<Dim>& buckets);
 
-  // Sends the records news_of(i) of these owned nodes to the ranks that have them as ghosts.
+  // Sends the records news_of(i) of these owned nodes to the ranks that have them as ghosts. A
+  // record has a function translate(to) for its positions and ids in a periodic domain.
   // Returns the records from other ranks. All ranks must call it, and if one rank throws, all ranks
   // throw.
   template <class Record, class NewsOf>
@@ -59,19 +61,25 @@ class Ghosts {
     Outbox outgoing;
     for (const std::int32_t i : owned) {
       const std::vector<Record> news = news_of(i);
-      halo_.for_ranks_with(nodes, i, [&](int rank) {
-        for (const Record& record : news) pack(outgoing.to(rank), record);
+      halo_.for_ranks_with(nodes, i, [&](int number) {
+        const Translation<Dim> to = halo_.images().translation_to(number);
+        for (Record record : news) {
+          if (to.cell.any()) record.translate(to);
+          pack(outgoing.to(halo_.images().rank(number)), record);
+        }
       });
     }
     return deliver<Record>(comm, outgoing);
   }
 
   // Receives data of the ghosts for which `wanted` is set from their owners, which call
-  // pack_data(i, bytes) for these nodes. `failure` is the failure of this rank's preceding work, or
-  // null. All ranks must call it, and if one rank throws, all ranks throw.
+  // pack_data(i, to, bytes) for these nodes, with positions and ids translated by `to`. `failure`
+  // is the failure of this rank's preceding work, or null. All ranks must call it, and if one rank
+  // throws, all ranks throw.
   std::vector<GhostData> receive_from_owners(
       const Communicator& comm, const std::vector<char>& wanted,
-      FunctionRef<void(std::int32_t i, Bytes& bytes)> pack_data, std::exception_ptr failure) const;
+      FunctionRef<void(std::int32_t i, const Translation<Dim>& to, Bytes& bytes)> pack_data,
+      std::exception_ptr failure) const;
 
   // Requires the next exchange to select the ghosts again.
   void invalidate() { hops_ = 0; }
@@ -97,8 +105,9 @@ class Ghosts {
   }
 
  private:
-  Bytes nodes_for(const Message& asked, const LevelTree<Dim>& tree, const Nodes<Dim>& nodes,
-                  const Buckets<Dim>& buckets);
+  std::vector<PackedNode<Dim>> nodes_for(int number, const std::vector<Box<Dim>>& boxes,
+                                         const LevelTree<Dim>& tree, const Nodes<Dim>& nodes,
+                                         const Buckets<Dim>& buckets);
 
   HaloExchange<Dim> halo_;
   int hops_ = 0;  // depth of the ghosts; 0: they must be selected again

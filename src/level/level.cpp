@@ -27,6 +27,7 @@ Level<Dim>::Level(std::shared_ptr<const Communicator> communicator,
       comm(std::move(communicator)),
       timers(into),
       geometry(std::move(domain), std::move(spacing), with.node_limit()) {
+  nodes.cell = geometry.cell();
   neighbourhood.reset_boundary(geometry);
 }
 
@@ -108,9 +109,12 @@ std::int64_t Level<Dim>::owned_count() const {
 }
 
 std::int64_t boundary_nodes(const Level<2>& level) {
-  return std::ranges::count_if(level.geometry.boundary().nodes, [&](const BoundaryNode<2>& node) {
-    return !level.geometry.domain().is_in_patch(node.position);
-  });
+  const std::vector<BoundaryNode<2>>& nodes = level.geometry.boundary().nodes;
+  std::int64_t count = 0;
+  for (std::int64_t b = 0; b < std::ssize(nodes); ++b)
+    count += level.geometry.boundary_node_in_cell(b) &&
+             !level.geometry.domain().is_in_patch(nodes[static_cast<std::size_t>(b)].position);
+  return count;
 }
 
 std::int64_t boundary_nodes(const Level<3>& level) {

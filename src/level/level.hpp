@@ -80,7 +80,8 @@ struct Level : LevelState<Dim> {
   // here.
   void change_settings(const Settings& next);
 
-  bool distributed() const { return comm->size() > 1; }
+  // Returns whether the level has ghosts: nodes of other ranks or images in a periodic domain.
+  bool distributed() const { return comm->size() > 1 || geometry.cell().any(); }
   const SizedTree<Dim>& map() const { return tree->map(); }
   const AdjacencyList<Dim>& lists() const { return neighbourhood.lists(); }
   // Returns a stamp that changes with the nodes, the lists and the settings.

@@ -44,7 +44,11 @@ class LevelTree {
   const Distribution<Dim>& distribution() const { return distribution_; }
   bool owns(std::int32_t leaf) const { return distribution_.owns(leaf); }
   // Returns the rank that owns this point.
-  int owner_at(const Point<Dim>& x) const { return distributed() ? distribution_.owner_at(x) : 0; }
+  int owner_at(const Point<Dim>& x) const {
+    return distributed() ? distribution_.images().rank(distribution_.owner_at(x)) : 0;
+  }
+  // Returns whether nodes have copies on other ranks, or images on this one.
+  bool distributed() const { return comm_.size() > 1 || geometry_.cell().any(); }
   // Returns the depth in hops around this rank's leaves to which the tree is refined.
   int hops() const { return hops_; }
   void forget_hops() { hops_ = 0; }  // requires the next exchange to grow another tree
@@ -54,7 +58,6 @@ class LevelTree {
  private:
   LevelTree(const Communicator& comm, const LevelGeometry<Dim>& geometry)
       : comm_(comm), geometry_(geometry) {}
-  bool distributed() const { return comm_.size() > 1; }
 
   void grow_whole(const Settings& settings);
   void grow_part(const Settings& settings, const LevelTree<Dim>* like);

@@ -32,6 +32,7 @@ template <int Dim>
 void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   for_each("pnpbs::find_leaves", static_cast<std::int64_t>(incoming.size()), [&](std::int64_t k) {
     IncomingNode<Dim>& node = incoming[static_cast<std::size_t>(k)];
+    node.position = level.nodes.cell.in_cell(level.nodes.cell.rounded(node.position));
     node.leaf = node.is_inner() ? level.tree->tree().leaf_at(node.position) : -1;
   });
 }
@@ -143,7 +144,8 @@ std::int64_t largest_of_ranks(const Communicator& comm, std::int64_t id) {
 template <int Dim>
 std::int64_t next_id_after(const Level<Dim>& level, const IncomingNodes<Dim>& incoming) {
   std::int64_t next = level.next_id;
-  for (const IncomingNode<Dim>& node : incoming) next = std::max(next, node.id + 1);
+  for (const IncomingNode<Dim>& node : incoming)
+    next = std::max(next, level.nodes.cell.number_of(node.id) + 1);
   return next;
 }
 
@@ -176,7 +178,7 @@ void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes
   leave_out_coinciding<Dim>(inner);
   level.next_id = next_id_after(level, inner);
   for (std::size_t b = 0; b < laid.size(); ++b)
-    level.next_id = std::max(level.next_id, laid.id(b) + 1);
+    level.next_id = std::max(level.next_id, level.nodes.cell.number_of(laid.id(b)) + 1);
   level.next_id = largest_of_ranks(*level.comm, level.next_id);
   const std::vector<LeafNode> own_boundary = own_boundary_nodes(level, laid);
   const LeafBlocks<Dim> blocks(level.tree->tree().leaf_count(), own_boundary, inner);
@@ -185,7 +187,7 @@ void number_and_store(Level<Dim>& level, IncomingNodes<Dim> inner, BoundaryNodes
   };
   std::vector<std::int64_t> next = new_ids(level, blocks, boundary_id);
   const auto number = [&](std::int64_t id, std::int32_t leaf) {
-    return id >= 0 ? id : next[static_cast<std::size_t>(leaf)]++;
+    return id >= 0 ? id : level.nodes.cell.id_of(next[static_cast<std::size_t>(leaf)]++);
   };
   const auto count = static_cast<std::int64_t>(own_boundary.size() + inner.size());
   Nodes<Dim>& nodes = level.nodes;

@@ -55,9 +55,9 @@ template <int Dim>
 std::vector<std::int64_t> expected_work(const SizedTree<Dim>& map) {
   std::vector<std::int64_t> work;
   for (std::int32_t leaf = 0; leaf < map.tree().leaf_count(); ++leaf) {
-    const double side = map.tree().cell_side(map.tree().leaf_cell(leaf)),
+    const double measure = map.tree().cell_measure(map.tree().leaf_cell(leaf)),
                  d = map.leaf_spacing(leaf);
-    const double cell = power<Dim>(side) / power<Dim>(d);
+    const double cell = measure / power<Dim>(d);
     const double nodes = map.leaf_outside(leaf) || d == 0 ? 0
                          : map.leaf_has_facets(leaf)      ? 0.5 * cell
                                                           : cell;
@@ -80,7 +80,7 @@ PartitionCells<Dim> cells_of_equal_work(const LevelTree<Dim>& tree,
       nullptr};
   if (!rare_work.empty())
     leaves.rare_work = [&](std::int32_t leaf) { return rare_work[static_cast<std::size_t>(leaf)]; };
-  return {tree.geometry().bounds(), cells_of_equal_work(tree.comm(), tree.tree(), leaves)};
+  return {tree.geometry().tree_bounds(), cells_of_equal_work(tree.comm(), tree.tree(), leaves)};
 }
 
 template <int Dim>
@@ -101,7 +101,8 @@ std::vector<std::int32_t> cut_like(const Communicator& comm, const Settings& set
   constexpr double kBalanced = 1.05;  // the level has few nodes, and little of the work
   std::vector<std::int32_t> owner;
   for (std::int32_t c = 0; c < cells.count(); ++c)
-    owner.push_back(other.owner_at(cells.tree().cell_centre(cells.tree().leaf_cell(c))));
+    owner.push_back(
+        other.images().rank(other.owner_at(cells.tree().cell_centre(cells.tree().leaf_cell(c)))));
   if (pnpbs::imbalance(owner, cells.work(), comm.size()) <= kBalanced) return owner;
   return cut_on_first_rank(comm, settings, cells);
 }
@@ -114,7 +115,7 @@ Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& sett
   PartitionCells<Dim> cells = cells_of_equal_work(tree, work, rare_work);
   std::vector<std::int32_t> owner =
       keep_numbers(tree, cells, cut_on_first_rank(comm, settings, cells), work);
-  return Distribution<Dim>(std::move(cells), std::move(owner), comm.rank());
+  return Distribution<Dim>(std::move(cells), std::move(owner), comm);
 }
 
 template std::vector<std::int64_t> expected_work(const SizedTree<2>&);

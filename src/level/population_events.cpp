@@ -42,11 +42,12 @@ namespace {
 
 // Returns the position of a new bubble beside node i.
 Point<2> place_beside(const Level<2>& level, std::int64_t i) {
-  return free_place<2>(level.nodes, level.lists(), i);
+  return level.nodes.cell.rounded(free_place<2>(level.nodes, level.lists(), i));
 }
 Point<3> place_beside(const Level<3>& level, std::int64_t i) {
-  return level.nodes.moving == Carrier::surface ? free_place_on_surface(level, i)
-                                                : free_place<3>(level.nodes, level.lists(), i);
+  return level.nodes.moving == Carrier::surface
+             ? free_place_on_surface(level, i)
+             : level.nodes.cell.rounded(free_place<3>(level.nodes, level.lists(), i));
 }
 
 // Finds the facets that new bubbles lie on, while the indices of their parents are valid.
@@ -63,11 +64,26 @@ std::int32_t tag_of_birth(const Level<3>& level, const Birth<3>& birth) {
   return level.geometry.boundary().facets[static_cast<std::size_t>(birth.boundary_node)].tag;
 }
 
+// Replaces the positions of new nodes of a periodic domain by those in its cell.
+template <int Dim>
+void put_in_cell(const Level<Dim>& level, std::vector<Birth<Dim>>& born) {
+  const PeriodicCell<Dim>& cell = level.nodes.cell;
+  if (!cell.any()) return;
+  for (Birth<Dim>& birth : born) {
+    const Point<Dim> x = cell.rounded(birth.position);
+    birth.boundary_node = level.geometry.boundary_seen_from(cell.image_of(x), level.nodes.moving,
+                                                            birth.boundary_node);
+    birth.position = cell.in_cell(x);
+  }
+}
+
 // The owner of the leaf that contains a new node assigns its id. Ids follow the Morton order of the
 // buckets, then the parent, then the position, so that they do not depend on threads or ranks.
 template <int Dim>
 void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
   const BackgroundTree<Dim>& tree = level.tree->tree();
+  const PeriodicCell<Dim>& cell = level.nodes.cell;
+  put_in_cell(level, born);
   if (level.distributed())
     born = redistribute<Birth<Dim>>(*level.comm, born, [&](const Birth<Dim>& birth) {
       return level.tree->owner_at(birth.position);
@@ -82,7 +98,7 @@ void number_births(Level<Dim>& level, std::vector<Birth<Dim>> born) {
   });
   for (const Birth<Dim>& birth : born)
     level.nodes.append(birth.position, birth.d,
-                       next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++,
+                       cell.id_of(next[static_cast<std::size_t>(tree.leaf_at(birth.position))]++),
                        tag_of_birth(level, birth), level.nodes.moving, birth.boundary_node);
 }
 

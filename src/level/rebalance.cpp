@@ -93,7 +93,7 @@ void rebalance_for(Level<Dim>& level, const View<std::int64_t>& rare_work) {
   // METIS may fail or not balance few heavy cells. All ranks have the same cells and owners.
   const PartitionCells<Dim>& cells = next.cells();
   const auto imbalance_after = [&](const std::vector<std::int64_t>& work) {
-    return imbalance(next.owners_of_cells(), work, level.comm->size());
+    return next.imbalance_of(work);
   };
   if (imbalance_after(cells.rare_work()) - 1 > kMuchLess * (present - 1) ||
       imbalance_after(cells.work()) > level.settings.rebalance_above)

@@ -21,7 +21,7 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
                                                      const Settings& settings,
                                                      const LevelTree<Dim>* like) {
   std::unique_ptr<LevelTree<Dim>> tree(new LevelTree(comm, geometry));
-  if (comm.size() == 1)
+  if (!tree->distributed())
     tree->grow_whole(settings);
   else
     tree->grow_part(settings, like);
@@ -41,8 +41,8 @@ std::unique_ptr<LevelTree<Dim>> LevelTree<Dim>::grow(const Communicator& comm,
 
 template <int Dim>
 void LevelTree<Dim>::grow_whole(const Settings& settings) {
-  map_.build(geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(), settings.node_limit(),
-             kLevelRefinement<Dim>, spacing_hints());
+  map_.build(geometry_.tree_bounds(), geometry_.boundary(), geometry_.evaluator(),
+             settings.node_limit(), kLevelRefinement<Dim>, spacing_hints());
   link_leaves(settings);
 }
 
@@ -69,16 +69,16 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
   PartitionCells<Dim> cells = cells_of_equal_work(*this, expected_work(map_));
   std::vector<std::int32_t> owner = like ? cut_like(comm_, settings, like->distribution_, cells)
                                          : cut_on_first_rank(comm_, settings, cells);
-  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_);
   grow_own_part(settings);
 }
 
 // Partitions by a few samples of d, along the Morton order.
 template <int Dim>
 void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
-  PartitionCells<Dim> cells(geometry_.bounds(), rough_cells(settings));
+  PartitionCells<Dim> cells(geometry_.tree_bounds(), rough_cells(settings));
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_.size());
-  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank());
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_);
 }
 
 // Returns large cells with the work that samples of d imply. They are the same on every rank.
@@ -89,7 +89,7 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
   std::vector<std::int64_t> work;
   for (int pass = 0; pass < kPasses; ++pass) {
     map_.build_part(
-        comm_, geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(),
+        comm_, geometry_.tree_bounds(), geometry_.boundary(), geometry_.evaluator(),
         settings.node_limit(),
         [&](const BackgroundTree<Dim>& tree, std::int32_t c, double nodes) {
           return tree.cell(c).depth < kUniformDepth || nodes > max ||
@@ -97,11 +97,14 @@ std::vector<PartitionCell<Dim>> LevelTree<Dim>::rough_cells(const Settings& sett
         },
         kLevelRefinement<Dim>);
     work = expected_work(map_);
+    for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf)
+      if (!map_.tree().in_periodic_cell(leaf)) work[static_cast<std::size_t>(leaf)] = 0;
     max = static_cast<double>(std::accumulate(work.begin(), work.end(), std::int64_t{0})) /
           (kWorkPerNode * kCellsPerRank * comm_.size());
   }
   std::vector<PartitionCell<Dim>> cells;
   for (std::int32_t leaf = 0; leaf < map_.tree().leaf_count(); ++leaf) {
+    if (!map_.tree().in_periodic_cell(leaf)) continue;
     const typename BackgroundTree<Dim>::Cell& cell = map_.tree().cell(map_.tree().leaf_cell(leaf));
     cells.push_back({cell.index, cell.depth, work[static_cast<std::size_t>(leaf)],
                      map_.leaf_max_spacing(leaf)});
@@ -114,7 +117,8 @@ template <int Dim>
 void LevelTree<Dim>::refine(const Settings& settings, const std::vector<char>& refined) {
   const BackgroundTree<Dim>& cells = distribution_.cells().tree();
   map_.build_part(
-      comm_, geometry_.bounds(), geometry_.boundary(), geometry_.evaluator(), settings.node_limit(),
+      comm_, geometry_.tree_bounds(), geometry_.boundary(), geometry_.evaluator(),
+      settings.node_limit(),
       [&](const BackgroundTree<Dim>& tree, std::int32_t c, double) {
         const typename BackgroundTree<Dim>::Cell& in =
             cells.cell(cells.cell_at(tree.cell_centre(c), tree.cell(c).depth));
@@ -197,7 +201,8 @@ void LevelTree<Dim>::require_same_leaves() const {
   };
   std::vector<Finding> of_others;
   for (std::int32_t c = 0; c < distribution_.cells().count(); ++c)
-    if (distribution_.cell_refined(c) && distribution_.owner_of_cell(c) != comm_.rank())
+    if (distribution_.cell_refined(c) && distribution_.owner_of_cell(c) != comm_.rank() &&
+        distribution_.cells().origin_of(c) == c)
       of_others.push_back({c, found[static_cast<std::size_t>(c)]});
   const auto owner = [this](const Finding& finding) {
     return distribution_.owner_of_cell(static_cast<std::int32_t>(finding.cell));

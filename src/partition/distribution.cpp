@@ -9,10 +9,44 @@
 
 #include "base/fixed_point.hpp"
 #include "partition/cell_sums.hpp"
+#include "partition/partition.hpp"
 #include "tree/box_tree.hpp"
 #include "tree/hop_search.hpp"
 
 namespace pnpbs {
+
+template <int Dim>
+Distribution<Dim>::Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner,
+                                const Communicator& comm)
+    : cells_(std::move(cells)),
+      images_(cells_.tree().periodic_cell(), comm.size()),
+      owner_(std::move(owner)),
+      rank_(comm.rank()),
+      ranks_(comm.size()) {
+  if (!images_.cell().any()) return;
+  for (std::int32_t c = 0; c < cells_.count(); ++c)
+    if (const Image<Dim> image = cells_.image_of(c); image != Image<Dim>{})
+      owner_[static_cast<std::size_t>(c)] =
+          images_.number(owner_of_cell(cells_.origin_of(c)), image);
+}
+
+template <int Dim>
+Distribution<Dim> Distribution<Dim>::without_leaves() const {
+  Distribution same;
+  same.cells_ = cells_;
+  same.images_ = images_;
+  same.owner_ = owner_;
+  same.rank_ = rank_;
+  same.ranks_ = ranks_;
+  return same;
+}
+
+template <int Dim>
+double Distribution<Dim>::imbalance_of(const std::vector<std::int64_t>& work) const {
+  std::vector<std::int32_t> ranks;
+  for (const std::int32_t owner : owner_) ranks.push_back(images_.rank(owner));
+  return imbalance(ranks, work, ranks_);
+}
 
 // Searches in boxes and not in a graph of all cells, of which a rank needs only a small part if
 // there are many ranks.

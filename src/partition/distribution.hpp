@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "comm/communicator.hpp"
+#include "partition/image_ranks.hpp"
 #include "partition/partition_cells.hpp"
 #include "tree/leaf_graph.hpp"
 
@@ -50,16 +51,20 @@ template <int Dim>
 class Distribution {
  public:
   Distribution() = default;  // a single rank, which owns all cells
-  Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner, int rank)
-      : cells_(std::move(cells)), owner_(std::move(owner)), rank_(rank) {}
+  // `owner` has the ranks of cells in the periodic cell, if there is one; those of images follow.
+  Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner,
+               const Communicator& comm);
 
   // Returns the same cells and owners without a refined tree.
-  Distribution without_leaves() const { return Distribution(cells_, owner_, rank_); }
+  Distribution without_leaves() const;
 
   const PartitionCells<Dim>& cells() const { return cells_; }
-  const std::vector<std::int32_t>& owners_of_cells() const { return owner_; }
+  // Ranks have numbers of their own as the owners of images.
+  const ImageRanks<Dim>& images() const { return images_; }
   int owner_of_cell(std::int32_t cell) const { return owner_[static_cast<std::size_t>(cell)]; }
   int owner_at(const Point<Dim>& x) const { return owner_of_cell(cells_.at(x)); }
+  // Returns the imbalance of this work over the ranks.
+  double imbalance_of(const std::vector<std::int64_t>& work) const;
   // Returns whether the cell lies outside the domain. No rank holds or needs the contents of
   // such a cell, even if it owns the cell.
   bool empty(std::int32_t cell) const { return cells_.max_spacing(cell) == 0; }
@@ -109,8 +114,9 @@ class Distribution {
 
  private:
   PartitionCells<Dim> cells_;
+  ImageRanks<Dim> images_;
   std::vector<std::int32_t> owner_;  // of each cell; empty: a single rank
-  int rank_ = 0;
+  int rank_ = 0, ranks_ = 1;
 
   const BackgroundTree<Dim>* tree_ = nullptr;
   std::shared_ptr<const LeafGraph<Dim>> links_;

@@ -14,6 +14,8 @@
 #include "base/nodes.hpp"
 #include "comm/communicator.hpp"
 #include "comm/rank_indices.hpp"
+#include "partition/image_ranks.hpp"
+#include "partition/packed_node.hpp"
 
 namespace pnpbs {
 
@@ -23,8 +25,10 @@ class HaloExchange {
   HaloExchange() = default;
   // Copies and moves keep the lists only. The result must be built before it can exchange.
   HaloExchange(const HaloExchange& other)
-      : neighbours_(other.neighbours_),
+      : images_(other.images_),
+        neighbours_(other.neighbours_),
         places_(other.places_),
+        order_(other.order_),
         send_(other.send_),
         receive_(other.receive_),
         comm_(other.comm_) {}
@@ -33,8 +37,10 @@ class HaloExchange {
   HaloExchange& operator=(HaloExchange&& other) noexcept {
     exchange_.reset();
     comm_ = other.comm_;
+    images_ = other.images_;
     neighbours_ = std::move(other.neighbours_);
     places_ = std::move(other.places_);
+    order_ = std::move(other.order_);
     send_ = std::move(other.send_);
     receive_ = std::move(other.receive_);
     return *this;
@@ -42,8 +48,10 @@ class HaloExchange {
   ~HaloExchange() = default;
 
   // Starts a plan for these neighbours without nodes. `comm` must outlive the plan.
-  void start(const Communicator& comm, const std::vector<int>& neighbours) {
+  void start(const Communicator& comm, const ImageRanks<Dim>& images,
+             const std::vector<int>& neighbours) {
     comm_ = &comm;
+    images_ = images;
     exchange_.reset();
     outgoing_ = {};
     incoming_ = {};
@@ -52,6 +60,8 @@ class HaloExchange {
     for (const int rank : neighbours) places_.add(rank);
     send_.assign(neighbours.size(), {});
     receive_.assign(neighbours.size(), {});
+    order_ = MessageOrder(neighbours_, images_);
+    comm.reserve_messages(neighbours.size());
   }
   // Adds a neighbour unless it is one. The other rank must do the same.
   void add_neighbour(int rank) {
@@ -64,6 +74,17 @@ class HaloExchange {
   bool knows(int rank) const { return places_.of(rank) >= 0; }
   std::size_t place(int rank) const { return static_cast<std::size_t>(places_.of(rank)); }
   const std::vector<int>& neighbours() const { return neighbours_; }
+  const ImageRanks<Dim>& images() const { return images_; }
+  // Sends outgoing[k] to neighbour k and returns the messages of the neighbours in the same order;
+  // see Communicator::exchange().
+  std::vector<Bytes> exchange(std::vector<Bytes> outgoing, std::exception_ptr failure) const {
+    attempt(failure, [&] { outgoing = in_order(std::move(outgoing)); });
+    outgoing.resize(neighbours_.size());
+    std::vector<Bytes> arrived = comm_->exchange(order_.ranks(), outgoing, failure);
+    std::vector<Bytes> incoming(arrived.size());
+    for (std::size_t k = 0; k < incoming.size(); ++k) incoming[k].swap(arrived[order_.arrival(k)]);
+    return incoming;
+  }
   // Returns the owned nodes that `rank` has as ghosts.
   const std::vector<std::int32_t>& sent_to(int rank) const { return send_[place(rank)]; }
   // Returns the ghosts that `rank` owns. In a built plan they have the order of sent_to() there.
@@ -77,11 +98,6 @@ class HaloExchange {
   }
   void send(int rank, std::int32_t node) { send_[place(rank)].push_back(node); }
   void receive(int rank, std::int32_t node) { receive_[place(rank)].push_back(node); }
-  template <class Visit>
-  void for_received(const Visit& visit) const {
-    for (const std::vector<std::int32_t>& list : receive_)
-      for (const std::int32_t node : list) visit(node);
-  }
 
   std::int64_t neighbour_count() const { return static_cast<std::int64_t>(neighbours_.size()); }
   std::int64_t nodes_sent() const {
@@ -101,8 +117,10 @@ class HaloExchange {
         std::sort(list.begin(), list.end(),
                   [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
     exchange_.reset();
+    order_ = MessageOrder(neighbours_, images_);
+    comm_->reserve_messages(neighbours_.size());
     make_buffers(kRecordSize, outgoing_, incoming_);
-    exchange_ = comm_->persistent_exchange(neighbours_, outgoing_, incoming_);
+    exchange_ = comm_->persistent_exchange(order_.ranks(), outgoing_, incoming_);
   }
 
   // Allocates the memory of permute(), so that it cannot fail.
@@ -127,7 +145,7 @@ class HaloExchange {
     std::unique_ptr<PersistentExchange> exchange;
     collective_try(comm, [&] {
       make_buffers(sizeof(double), outgoing, incoming);
-      exchange = comm.persistent_exchange(neighbours_, outgoing, incoming);
+      exchange = comm.persistent_exchange(order_.ranks(), outgoing, incoming);
     });
     run(*exchange, outgoing, incoming,
         [&](std::int32_t i, const auto& visit) { visit(values(i)); });
@@ -135,7 +153,7 @@ class HaloExchange {
 
   // Updates positions and velocities of ghosts. All neighbours must call it. A rank that misses a
   // message throws and keeps its ghosts unchanged.
-  void update(Nodes<Dim>& nodes) {
+  void update(Nodes<Dim>& nodes, const BoundarySeenFrom<Dim>& boundary_seen_from) {
     run(*exchange_, outgoing_, incoming_, [&](std::int32_t i, const auto& visit) {
       for (int d = 0; d < Dim; ++d) {
         visit(nodes.x[d](i));
@@ -143,6 +161,7 @@ class HaloExchange {
       }
       if constexpr (Dim == 3) visit(nodes.boundary_node(i));
     });
+    if (images_.cell().any()) put_into_images(nodes, boundary_seen_from);
   }
 
  private:
@@ -152,8 +171,28 @@ class HaloExchange {
     outgoing.resize(neighbours_.size());
     incoming.resize(neighbours_.size());
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      outgoing[k].resize(send_[k].size() * bytes_of_node);
-      incoming[k].resize(receive_[k].size() * bytes_of_node);
+      outgoing[order_.departure(k)].resize(send_[k].size() * bytes_of_node);
+      incoming[order_.arrival(k)].resize(receive_[k].size() * bytes_of_node);
+    }
+  }
+
+  std::vector<Bytes> in_order(std::vector<Bytes> outgoing) const {
+    std::vector<Bytes> ordered(outgoing.size());
+    for (std::size_t k = 0; k < outgoing.size(); ++k)
+      ordered[order_.departure(k)].swap(outgoing[k]);
+    return ordered;
+  }
+
+  // Moves ghosts from the positions of their owners' nodes to those of the images here.
+  void put_into_images(Nodes<Dim>& nodes, const BoundarySeenFrom<Dim>& boundary_seen_from) const {
+    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+      const Translation<Dim> to_image = images_.translation_from(neighbours_[k]);
+      for (const std::int32_t i : receive_[k]) {
+        nodes.set_position(i, to_image(nodes.position(i)));
+        if constexpr (Dim == 3)
+          nodes.boundary_node(i) =
+              boundary_seen_from(to_image.image, nodes.carrier(i), nodes.boundary_node(i));
+      }
     }
   }
 
@@ -162,14 +201,14 @@ class HaloExchange {
   void run(PersistentExchange& exchange, std::vector<Bytes>& outgoing,
            const std::vector<Bytes>& incoming, const ForValues& for_values) const {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      char* out = outgoing[k].data();
+      char* out = outgoing[order_.departure(k)].data();
       for (const std::int32_t i : send_[k])
         for_values(i, [&](const auto& value) { put(out, value); });
     }
     exchange.start();
     exchange.wait();
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      const char* in = incoming[k].data();
+      const char* in = incoming[order_.arrival(k)].data();
       for (const std::int32_t i : receive_[k]) for_values(i, [&](auto& value) { take(in, value); });
     }
   }
@@ -185,8 +224,10 @@ class HaloExchange {
     in += sizeof value;
   }
 
-  std::vector<int> neighbours_;
+  ImageRanks<Dim> images_;
+  std::vector<int> neighbours_;  // ranks, or those of copies of the periodic cell: see ImageRanks
   RankIndices places_;
+  MessageOrder order_;
   std::vector<std::vector<std::int32_t>> send_, receive_;  // indices of nodes, by neighbour
   std::vector<std::int32_t> moved_to_;
   const Communicator* comm_ = nullptr;

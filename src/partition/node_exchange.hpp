@@ -23,6 +23,8 @@ struct NodeExchange {
   const Halo& halo;
   int rank;
   HaloExchange<Dim>& plan;  // must be started with the neighbours of the halo
+  // Returns the boundary_node of a node as seen from a copy of the periodic cell.
+  BoundarySeenFrom<Dim> boundary_seen_from;
 
   // Packs the nodes for rank r into outgoing[plan.place(r)]. Writes the indices of the nodes that
   // this rank keeps, as owner or as ghost, to `stay` in increasing order and returns their number.
@@ -38,6 +40,13 @@ struct NodeExchange {
   // Marks migrated nodes as ghosts, appends the nodes and ghosts that have arrived, and builds the
   // plan. Nodes that do not stay must have been removed. If it throws, the nodes are still valid.
   void append_arriving(Nodes<Dim>& nodes, std::vector<Bytes> incoming) const;
+
+ private:
+  // Returns the id of a node, which this rank has owned, in the copy of the cell that it has moved
+  // to with its new owner.
+  std::int64_t id_in_copy_of(int owner, std::int64_t id) const {
+    return plan.images().translation_from(owner).id(id);
+  }
 };
 
 template <int Dim>
@@ -57,12 +66,20 @@ std::int64_t NodeExchange<Dim>::pack_leaving(const Nodes<Dim>& nodes, const Know
     const int owner = distribution.owner(leaf);
     const bool ours = owner == rank;
     bool stays = ours;
-    if (!ours && plan.knows(owner)) pack(outgoing[plan.place(owner)], packed(nodes, i));
+    const auto pack_for = [&](int r) {
+      PackedNode<Dim> node = packed(nodes, i);
+      if (plan.images().cell().any()) {
+        node.id = id_in_copy_of(owner, node.id);
+        node.translate(plan.images().translation_to(r), boundary_seen_from);
+      }
+      pack(outgoing[plan.place(r)], node);
+    };
+    if (!ours && plan.knows(owner)) pack_for(owner);
     halo.for_ranks(leaf, [&](int r) {
       if (r == rank)
         stays = true;
       else if (plan.knows(r))
-        pack(outgoing[plan.place(r)], packed(nodes, i));
+        pack_for(r);
       if (ours) plan.send(r, static_cast<std::int32_t>(kept));
     });
     if (!stays) continue;
@@ -82,7 +99,11 @@ void NodeExchange<Dim>::reserve(Nodes<Dim>& nodes, std::int64_t kept,
 
 template <int Dim>
 void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes, std::vector<Bytes> incoming) const {
-  plan.for_received([&](std::int32_t i) { nodes.owned(i) = false; });
+  for (const int owner : plan.neighbours())
+    for (const std::int32_t i : plan.received_from(owner)) {
+      nodes.owned(i) = false;
+      if (plan.images().cell().any()) nodes.id(i) = id_in_copy_of(owner, nodes.id(i));
+    }
   const std::int64_t kept = nodes.count;
   reserve(nodes, kept, incoming);
   std::int32_t leaf = -1;  // start of the search, because consecutive nodes often share a leaf

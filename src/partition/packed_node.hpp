@@ -3,10 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "base/nodes.hpp"
+#include "base/periodic_cell.hpp"
 
 namespace pnpbs {
+
+template <int Dim>
+using BoundarySeenFrom =
+    std::function<std::int32_t(const Image<Dim>& image, Carrier carrier, std::int32_t on)>;
 
 template <int Dim>
 struct PackedNode {
@@ -15,6 +21,15 @@ struct PackedNode {
   double d;
   std::int32_t tag, boundary_node, reference_on;
   Carrier carrier;
+
+  // Makes the node what it is as seen from a copy of the periodic cell.
+  void translate(const Translation<Dim>& by, const BoundarySeenFrom<Dim>& boundary_seen_from) {
+    id = by.id(id);
+    x = by(x);
+    reference = by(reference);
+    boundary_node = boundary_seen_from(by.image, carrier, boundary_node);
+    if (Dim == 3) reference_on = boundary_seen_from(by.image, carrier, reference_on);
+  }
 };
 
 template <int Dim>

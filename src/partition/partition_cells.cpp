@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "comm/records.hpp"
+#include "tree/box_tree.hpp"
 
 namespace pnpbs {
 
@@ -72,9 +73,40 @@ void put_together(const BackgroundTree<Dim>& tree, const OwnCells& known, std::i
 
 }  // namespace
 
+// Adds the images of the cells of a periodic domain as far as the tree extends.
 template <int Dim>
-PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
-                                    const std::vector<PartitionCell<Dim>>& cells) {
+std::vector<PartitionCell<Dim>> PartitionCells<Dim>::with_images(
+    const TreeBounds<Dim>& bounds, std::vector<PartitionCell<Dim>> cells) {
+  if (!bounds.cell.any()) return cells;
+  BackgroundTree<Dim> root;
+  root.build(bounds, [](const auto&, std::int32_t, std::int32_t, const auto&) {});
+  const std::size_t own = cells.size();
+  root.for_images([&](const Image<Dim>& image) {
+    if (image == Image<Dim>{}) return;
+    for (std::size_t c = 0; c < own; ++c) {
+      PartitionCell<Dim> copy = cells[c];
+      const auto index = root.moved_index({copy.index, copy.depth, -1, -1}, image);
+      if (!index) continue;
+      copy.index = *index;
+      copy.work = copy.rare_work = 0;
+      if (boxes_meet(root.box_of(copy.index, copy.depth), bounds.box)) cells.push_back(copy);
+    }
+  });
+  return cells;
+}
+
+template <int Dim>
+Image<Dim> PartitionCells<Dim>::image_of(std::int32_t c) const {
+  const typename BackgroundTree<Dim>::Cell& cell = tree_.cell(tree_.leaf_cell(c));
+  Image<Dim> image;
+  image.fill(PeriodicCell<Dim>::kFarthest);
+  return cell.depth < tree_.depth_of_periods() ? image : tree_.image_of(cell);
+}
+
+template <int Dim>
+PartitionCells<Dim>::PartitionCells(const TreeBounds<Dim>& bounds,
+                                    const std::vector<PartitionCell<Dim>>& given) {
+  const std::vector<PartitionCell<Dim>> cells = with_images(bounds, given);
   std::set<CellKey<Dim>> above;  // all ancestors of the given cells
   for (const PartitionCell<Dim>& cell : cells) {
     CellKey<Dim> key{cell.depth, cell.index};
@@ -94,10 +126,8 @@ PartitionCells<Dim>::PartitionCells(const Box<Dim>& bounds,
   rare_work_.assign(static_cast<std::size_t>(count()), 0);
   max_spacing_.assign(static_cast<std::size_t>(count()), 0);
   for (const PartitionCell<Dim>& cell : cells) {
-    const double side = std::ldexp(tree_.side(), -cell.depth);
-    Point<Dim> centre;
-    for (int k = 0; k < Dim; ++k) centre[k] = tree_.origin()[k] + side * (cell.index[k] + 0.5);
-    const auto leaf = static_cast<std::size_t>(at(centre));
+    const Box<Dim> box = tree_.box_of(cell.index, cell.depth);
+    const auto leaf = static_cast<std::size_t>(at(middle_of<Dim>(box.low, box.high)));
     work_[leaf] = cell.work;
     rare_work_[leaf] = cell.rare_work;
     max_spacing_[leaf] = cell.max_spacing;

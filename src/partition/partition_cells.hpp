@@ -31,7 +31,9 @@ class PartitionCells {
  public:
   // Creates a single cell, the root, which has all the work.
   PartitionCells() : PartitionCells(Box<Dim>{}, {}) {}
-  PartitionCells(const Box<Dim>& bounds, const std::vector<PartitionCell<Dim>>& cells);
+  // Creates the given cells. If the domain is periodic, these are the cells in its periodic cell,
+  // and their images are created as well, without work.
+  PartitionCells(const TreeBounds<Dim>& bounds, const std::vector<PartitionCell<Dim>>& cells);
 
   std::int32_t count() const { return tree_.leaf_count(); }
   std::int32_t at(const Point<Dim>& x) const { return tree_.leaf_at(x); }
@@ -39,10 +41,20 @@ class PartitionCells {
   const std::vector<std::int64_t>& work() const { return work_; }
   const std::vector<std::int64_t>& rare_work() const { return rare_work_; }
   double max_spacing(std::int32_t c) const { return max_spacing_[static_cast<std::size_t>(c)]; }
+  // Return the copy of the periodic cell that a cell lies in, which is the farthest one for cells
+  // beyond all copies, and the cell that it is an image of.
+  Image<Dim> image_of(std::int32_t c) const;
+  std::int32_t origin_of(std::int32_t c) const {
+    const PeriodicCell<Dim>& cell = tree_.periodic_cell();
+    return cell.any() ? at(cell.in_cell(tree_.cell_centre(tree_.leaf_cell(c)))) : c;
+  }
   // Tree with the partition cells as leaves.
   const BackgroundTree<Dim>& tree() const { return tree_; }
 
  private:
+  static std::vector<PartitionCell<Dim>> with_images(const TreeBounds<Dim>& bounds,
+                                                     std::vector<PartitionCell<Dim>> cells);
+
   BackgroundTree<Dim> tree_;
   std::vector<std::int64_t> work_, rare_work_;
   std::vector<double> max_spacing_;

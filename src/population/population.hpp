@@ -39,6 +39,10 @@ struct Bid {
   bool beats(const Bid& other) const {
     return defect > other.defect || (defect == other.defect && id > other.id);
   }
+  void translate(const Translation<Dim>& by) {
+    id = by.id(id);
+    place = by(place);
+  }
 };
 
 // The changes that the owned winners of a contest make.

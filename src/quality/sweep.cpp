@@ -17,25 +17,30 @@ void propose(const Nodes<2>& nodes, const DelaunayStars& stars, const NearEdges&
              const SizedTree<2>& map, const SweepRule& rule, Field<2>& proposed, std::int64_t b) {
   const DelaunayStars::Block block = stars.block(b);
   const Positions<2> x = positions_of<2>(nodes.x);
-  std::array<double, kLanes> sum_x{}, sum_y{};
+  std::array<double, kLanes> sum_x{}, sum_y{}, from_x{}, from_y{};
+  const std::int64_t first = b * kLanes;
+  const int lanes = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
+  // In a periodic domain sums are relative to the node, so that they are the same for its images.
+  for (int lane = 0; nodes.cell.any() && lane < lanes; ++lane) {
+    from_x[lane] = x[0][first + lane];
+    from_y[lane] = x[1][first + lane];
+  }
   const DelaunayStars::Entry* entries = block.entries;
   for (std::int32_t k = 0; k < block.length; ++k, entries += kLanes) {
 #pragma omp simd
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::int32_t j = entries[lane].value();
       const double there = k < block.sizes[lane].value() ? 1.0 : 0.0;
-      sum_x[lane] += there * x[0][j];
-      sum_y[lane] += there * x[1][j];
+      sum_x[lane] += there * (x[0][j] - from_x[lane]);
+      sum_y[lane] += there * (x[1][j] - from_y[lane]);
     }
   }
-  const std::int64_t first = b * kLanes;
-  const int lanes = static_cast<int>(std::min<std::int64_t>(kLanes, nodes.count - first));
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int64_t i = first + lane;
     const std::int32_t n = block.sizes[lane].value();
     const bool may = nodes.moves(i) && n >= 3 && block.sizes[lane].flag();
-    const Point<2> move{rule.weight * (sum_x[lane] / n - x[0][i]),
-                        rule.weight * (sum_y[lane] / n - x[1][i])};
+    const Point<2> move{rule.weight * (sum_x[lane] / n - (x[0][i] - from_x[lane])),
+                        rule.weight * (sum_y[lane] / n - (x[1][i] - from_y[lane]))};
     if (may)
       propose_move(nodes, near_edges, map, rule, i, move, proposed);
     else
@@ -49,7 +54,8 @@ void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const Size
                   const SweepRule& rule, std::int64_t i, Point<2> move, Field<2>& proposed) {
   const Point<2> x = nodes.position(i);
   clamp_move<2>(move, rule.max_move * nodes.d(i));
-  for (int k = 0; k < 2; ++k) proposed[k](i) = x[k] + move[k];
+  const Point<2> to = nodes.position_after(i, move);
+  for (int k = 0; k < 2; ++k) proposed[k](i) = to[k];
   if (!near_edges.any(i)) return;
   const ClearPosition<2> kept =
       clear_position(map, near_edges.edges_of(i), x, point_at<2>(proposed, i), nodes.d(i));

@@ -164,7 +164,7 @@ std::shared_ptr<const ExchangePattern> Results<Dim>::exchange_pattern() {
   collective_try(*comm_, [&] {
     ids.reserve(static_cast<std::size_t>(nodes.count));
     for (std::int64_t place = 0; place < nodes.count; ++place) {
-      ids.push_back(nodes.id(node_at(place)));
+      ids.push_back(nodes.cell.home_id(nodes.id(node_at(place))));
       if (place >= owned) owners.push_back(level_->tree->owner_at(nodes.position(node_at(place))));
     }
   });
@@ -180,7 +180,7 @@ template <int Dim>
 NodeColumns Results<Dim>::nodes() const {
   if (!level_) return {};
   const Nodes<Dim>& nodes = level_->nodes;
-  NodeColumns columns{nodes.count,       {}, nodes.d.view(), nodes.id.view(), nodes.tag.view(),
+  NodeColumns columns{nodes.count,       {}, nodes.d.view(), numbers(), nodes.tag.view(),
                       nodes.owned.view()};
   for (std::size_t k = 0; k < Dim; ++k) columns.x[k] = nodes.x[k].view();
   if (!embedding().is_sphere()) return columns;
@@ -188,6 +188,20 @@ NodeColumns Results<Dim>::nodes() const {
   for (std::size_t k = 0; k < 3; ++k) columns.x[k] = on_sphere_[k];
   columns.d = spacing_on_sphere_;
   return columns;
+}
+
+// Returns the ids of the nodes as the user knows them, which are those of their nodes for images.
+template <int Dim>
+View<const std::int64_t> Results<Dim>::numbers() const {
+  const Nodes<Dim>& nodes = level_->nodes;
+  if (!nodes.cell.any()) return nodes.id.view();
+  if (numbers_stamp_ != level_->stamp()) {
+    numbers_ = make_view<std::int64_t>("pnpbs::Results::numbers", nodes.count);
+    for_each("pnpbs::Results::numbers", nodes.count,
+             [&](std::int64_t i) { numbers_(i) = nodes.number(i); });
+    numbers_stamp_ = level_->stamp();
+  }
+  return numbers_;
 }
 
 template <int Dim>

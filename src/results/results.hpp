@@ -142,6 +142,7 @@ class Results : public NodalResults {
   LevelStamp stamp() const override { return level_ ? level_->stamp() : LevelStamp(); }
 
   void put_on_sphere() const;
+  View<const std::int64_t> numbers() const;
 
   std::shared_ptr<const Domain<Dim>> domain_;
   Level<Dim>* level_ = nullptr;
@@ -149,6 +150,9 @@ class Results : public NodalResults {
   mutable std::array<View<double>, 3> on_sphere_;
   mutable View<double> spacing_on_sphere_;
   mutable LevelStamp on_sphere_stamp_;
+  // In a periodic domain: the numbers of the nodes in the order of memory, computed on request.
+  mutable View<std::int64_t> numbers_;
+  mutable LevelStamp numbers_stamp_;
   std::shared_ptr<const MidNodes> mid_nodes_;
   LevelStamp mid_nodes_stamp_;
   std::shared_ptr<const Cracks<Dim>> cracks_;

@@ -13,6 +13,7 @@
 #include "sizing/closing_patch.hpp"
 #include "sizing/coarser_levels.hpp"
 #include "sizing/holding_spacing.hpp"
+#include "sizing/periodic_copies.hpp"
 
 namespace pnpbs {
 
@@ -46,7 +47,8 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
   const auto make = [&] {
     const PhaseTimer timer(timers_, Phase::boundary);
     // The level needs a copy, because the caller may change the domain afterwards.
-    auto domain = std::make_shared<Domain<Dim>>(*closed_domain(domain_, spacing));
+    auto domain =
+        std::make_shared<Domain<Dim>>(*with_copies<Dim>(closed_domain(domain_, spacing), spacing));
     if (like) take_bounds(*domain, like->geometry.domain());
     level = std::make_shared<Level<Dim>>(comm_, std::move(domain),
                                          std::make_shared<const SizingField<Dim>>(spacing),
@@ -55,7 +57,7 @@ std::shared_ptr<Level<Dim>> LevelBuilder<Dim>::empty_level(const SizingField<Dim
   context_.monitoring.watch("the boundary was laid and the tree grown", context_.results.count(),
                             [&] {
                               collective_try(*comm_, make);
-                              level->grow_tree(like);
+                              level->grow_tree(domain_->cell().any() ? nullptr : like);
                             });
   return level;
 }
@@ -150,6 +152,9 @@ void LevelBuilder<Dim>::begin_anew(BuiltLevel<Dim>& made, const Settings& settin
   int& coarser_levels = context_.run.coarser_levels;
   filled_levels_ = coarser_levels = useful_coarser_levels(*made.level, *domain_, made.placed.d);
   coarser_levels = std::max(coarser_levels, surface_levels_that_pay(*made.level));
+  while (coarser_levels > 0 &&
+         !periods_suffice<Dim>(*domain_, spacing_of_level(made.placed.d, coarser_levels)))
+    --coarser_levels;
   IncomingNodes<Dim> nodes;
   if (coarser_levels > 0) nodes = nodes_from_coarser_levels(made, settings, made.outcome);
   put_first_nodes(*made.level, nodes, 0, made.outcome);

@@ -7,6 +7,7 @@
 #include "level/expected_nodes.hpp"
 #include "method/constants.hpp"
 #include "sizing/closing_patch.hpp"
+#include "sizing/periodic_copies.hpp"
 
 namespace pnpbs {
 
@@ -72,6 +73,7 @@ int useful_coarser_levels(const Level<Dim>& finest, const Domain<Dim>& domain,
     return d.max > method::kPatchVariation * d.min &&
            nodes >= method::kMinNodesOfCoarsest * std::pow(factor, Dim) &&
            d.steepest * factor <= method::kSteepestOnCoarsest && can_be_closed(domain, coarser) &&
+           periods_suffice(domain, coarser) &&
            boundary_leaves_room(finest, domain, coarser, factor, nodes);
   };
   while (levels < finest.settings.levels &&

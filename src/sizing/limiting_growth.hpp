@@ -33,7 +33,9 @@ class EffectiveSpacing {
   EffectiveSpacing(std::shared_ptr<const Communicator> comm,
                    std::shared_ptr<const Domain<Dim>> domain, const SizingField<Dim>& spacing,
                    const Options& options)
-      : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {}
+      : comm_(std::move(comm)), domain_(std::move(domain)), spacing_(spacing), options_(options) {
+    spacing_.set_cell(domain_->cell());
+  }
 
   // Returns the bounded spacing, scaled for the number of nodes in the option wanted_nodes if that
   // is set. This number is estimated; `count_factor` on d corrects the error of the estimate.

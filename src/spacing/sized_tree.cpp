@@ -87,9 +87,10 @@ class SizedTree<Dim>::Growth {
   // Returns the number of nodes that the samples of d require in the whole cell, including its part
   // outside of the domain.
   double nodes_in(const BackgroundTree<Dim>& tree, std::int32_t c) const {
-    return Lattice<Dim>::kDensity * power<Dim>(tree.cell_side(c)) * state(c).mean_density;
+    return Lattice<Dim>::kDensity * tree.cell_measure(c) * state(c).mean_density;
   }
   void count_leaf(const BackgroundTree<Dim>& tree, std::int32_t c) {
+    if (tree.is_image(c)) return;
     nodes_in_leaves_ += surfaces_alone_    ? min_nodes_in(tree, c)
                         : wholly_inside(c) ? nodes_in(tree, c)
                                            : 0;
@@ -234,6 +235,7 @@ void SizedTree<Dim>::Growth::take_samples(const std::vector<double>& values,
 
 template <int Dim>
 bool SizedTree<Dim>::Growth::wants_split(const BackgroundTree<Dim>& tree, std::int32_t c) const {
+  if (tree.cell(c).depth < tree.depth_of_periods()) return true;
   if (facets_->outside(c)) return false;
   const CellState& cell = state(c);
   const double side = tree.cell_side(c);
@@ -285,7 +287,7 @@ void SizedTree<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
   double nodes = nodes_in_leaves_;
   std::int32_t finest = first;
   for (std::int32_t c = first; c < last; ++c) {
-    const double in_cell = facets_->outside(c) ? 0 : min_nodes_in(tree, c);
+    const double in_cell = facets_->outside(c) || tree.is_image(c) ? 0 : min_nodes_in(tree, c);
     if (in_cell == 0) continue;
     nodes += in_cell;
     if (facets_->outside(finest) || state(c).min < state(finest).min) finest = c;
@@ -295,7 +297,7 @@ void SizedTree<Dim>::Growth::check_count(const BackgroundTree<Dim>& tree, std::i
 }
 
 template <int Dim>
-void SizedTree<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
+void SizedTree<Dim>::build(const TreeBounds<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
                            const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
                            Refinement by, const std::vector<GrowthSource<Dim>>& known) {
   Growth growth(boundary, spacing, limit, by, known);
@@ -304,7 +306,7 @@ void SizedTree<Dim>::build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boun
 }
 
 template <int Dim>
-void SizedTree<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds,
+void SizedTree<Dim>::build_part(const Communicator& comm, const TreeBounds<Dim>& bounds,
                                 const BoundaryMesh<Dim>& boundary,
                                 const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
                                 const MaySplit& may_split, Refinement by,
@@ -314,7 +316,7 @@ void SizedTree<Dim>::build_part(const Communicator& comm, const Box<Dim>& bounds
 }
 
 template <int Dim>
-void SizedTree<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
+void SizedTree<Dim>::grow(const Communicator& comm, const TreeBounds<Dim>& bounds, Growth& growth,
                           const MaySplit& may_split) {
   collective_try(comm, [&] { growth.start(); });
   std::int32_t parents = 0;  // first cell of the previous depth
@@ -334,7 +336,8 @@ void SizedTree<Dim>::grow(const Communicator& comm, const Box<Dim>& bounds, Grow
     for (std::int32_t c = first; c < last; ++c) {
       const double nodes = growth.nodes_in(tree, c);
       split[static_cast<std::size_t>(c - first)] =
-          growth.wants_split(tree, c) && may_split(tree, c, nodes);
+          growth.wants_split(tree, c) &&
+          (tree.cell(c).depth < tree.depth_of_periods() || may_split(tree, c, nodes));
       if (!split[static_cast<std::size_t>(c - first)]) growth.count_leaf(tree, c);
     }
   };

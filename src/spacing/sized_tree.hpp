@@ -34,7 +34,7 @@ class SizedTree : public FacetIndex<Dim> {
   // at the cell_samples of each cell inside the domain and at the boundary nodes. Dips of d between
   // these points are not detected unless `known` contains them. Throws Error(ErrorKind::spacing or
   // ::memory) if d requires more nodes than the limit allows.
-  void build(const Box<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
+  void build(const TreeBounds<Dim>& bounds, const BoundaryMesh<Dim>& boundary,
              const SpacingEvaluator<Dim>& spacing, const NodeLimit& limit,
              Refinement by = Refinement::spacing_and_boundary,
              const std::vector<GrowthSource<Dim>>& known = {});
@@ -45,7 +45,7 @@ class SizedTree : public FacetIndex<Dim> {
       std::function<bool(const BackgroundTree<Dim>& tree, std::int32_t cell, double nodes)>;
   // Builds the same tree, but splits a cell only if may_split allows it.
   // Collective if may_split differs between ranks. If one rank throws, all ranks throw.
-  void build_part(const Communicator& comm, const Box<Dim>& bounds,
+  void build_part(const Communicator& comm, const TreeBounds<Dim>& bounds,
                   const BoundaryMesh<Dim>& boundary, const SpacingEvaluator<Dim>& spacing,
                   const NodeLimit& limit, const MaySplit& may_split,
                   Refinement by = Refinement::spacing_and_boundary,
@@ -69,7 +69,7 @@ class SizedTree : public FacetIndex<Dim> {
 
  private:
   class Growth;  // state of the cells while the tree grows
-  void grow(const Communicator& comm, const Box<Dim>& bounds, Growth& growth,
+  void grow(const Communicator& comm, const TreeBounds<Dim>& bounds, Growth& growth,
             const MaySplit& may_split);
   void keep_leaves(BackgroundTree<Dim> tree, const Growth& growth);
   static double at(const std::vector<double>& values, std::int32_t leaf) {

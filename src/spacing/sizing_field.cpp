@@ -93,6 +93,15 @@ void SizingField<Dim>::reduce(const Sources& sources, std::int64_t n, const Poin
 
 template <int Dim>
 void SizingField<Dim>::evaluate(std::int64_t n, const Point<Dim>* x, double* d) const {
+  if (!cell_.any()) return evaluate_in_cell(n, x, d);
+  std::vector<Point<Dim>> in_cell(static_cast<std::size_t>(n));
+  for_each("pnpbs::SizingField::evaluate", n,
+           [&](std::int64_t i) { in_cell[static_cast<std::size_t>(i)] = cell_.in_cell(x[i]); });
+  evaluate_in_cell(n, in_cell.data(), d);
+}
+
+template <int Dim>
+void SizingField<Dim>::evaluate_in_cell(std::int64_t n, const Point<Dim>* x, double* d) const {
   beat();
   source_->evaluate(n, x, d);
   multiply(n, d, factor_);

@@ -27,6 +27,8 @@ class SizingField : public Spacing<Dim> {
   SizingField() = default;
   explicit SizingField(std::shared_ptr<const Spacing<Dim>> source) : source_(std::move(source)) {}
 
+  // Makes the field periodic: it is evaluated in the cell only.
+  void set_cell(const PeriodicCell<Dim>& cell) { cell_ = cell; }
   // Sets the function that beat() calls. Its exceptions end the evaluation, like errors of a
   // callback.
   void set_beat(std::function<void()> beat) { beat_ = std::move(beat); }
@@ -81,7 +83,10 @@ class SizingField : public Spacing<Dim> {
 
   static void reduce(const Sources& sources, std::int64_t n, const Point<Dim>* x, double* d);
 
+  void evaluate_in_cell(std::int64_t n, const Point<Dim>* x, double* d) const;
+
   std::shared_ptr<const Spacing<Dim>> source_;
+  PeriodicCell<Dim> cell_;
   SpacingHints<Dim> undersampled_points_;
   double factor_ = 1;
   double bound_ = std::numeric_limits<double>::infinity();

@@ -538,6 +538,7 @@ class Resolver {
     curve.corner_begin = graph_.ends[first][0];
     curve.corner_end = graph_.ends[last][1];
     curve.tag = source.segment_tag(graph_.edges[first].segment);
+    curve.source = graph_.edges[first].source;
     curve.left_face = inner_face_[face_on_left(first)];
     curve.right_face = inner_face_[face_on_right(first)];
     if (!region_tags_.empty()) {

@@ -13,6 +13,7 @@
 #include "base/limits.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
+#include "domain/plane/copies_of_cell.hpp"
 #include "domain/plane/domain_graph.hpp"
 #include "domain/plane/domain_resolver.hpp"
 #include "domain/plane/outline_tags.hpp"
@@ -350,6 +351,7 @@ void PlaneDomain::close(const ClosingPatch& patch) {
 void PlaneDomain::check() {
   if (checked_) return;
   if (is_whole_sphere() && !closing_) return check_open_sphere();
+  if (cell_.any()) return check_periodic();
   for (CurveSource& source : sources_)
     if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
   if (!embedding_.is_sphere())  // the scale of a chart varies
@@ -397,6 +399,21 @@ void PlaneDomain::check_open_sphere() {
   closed.check();
   resolved_ = std::move(closed.resolved_);
   std::erase_if(resolved_.curves, [](const BoundaryCurve& curve) { return curve.bounds(); });
+  checked_ = true;
+}
+
+// Resolves the copies of a periodic domain as one domain that is not periodic.
+void PlaneDomain::check_periodic() {
+  for (CurveSource& source : sources_)
+    if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
+  if (auto warning = snap_loose_points(sources_, given_nodes_, snap_))
+    add_warning(std::move(*warning));
+  CopiesOfCell copies =
+      copies_of_cell(cell_, copies_, side_tags_, sources_, region_points_, given_nodes_);
+  resolved_ = resolve_domain(copies.sources, copies.region_points, copies.fixed_nodes, fragment_);
+  resolved_.area = area_of_cell(cell_, resolved_.curves, copies.in_cell);
+  resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
+                            given_warnings_.end());
   checked_ = true;
 }
 

@@ -39,6 +39,7 @@ struct BoundaryCurve {
   std::vector<std::int64_t> segment_numbers;
   bool reordered = false;
   std::string name_prefix;  // such as "curve 3, "
+  std::int32_t source = 0;  // index of the curve or graph that it is part of
   // Faces on both sides, into which curves divide the inside: 1, 2, ... inside, 0 outside.
   std::int32_t left_face = 0;
   std::int32_t right_face = 0;
@@ -191,6 +192,7 @@ class PlaneDomain : public DomainBase<2> {
                             std::int64_t next_v) const;
 
   void check_open_sphere();
+  void check_periodic();
   void follow_patch();
   void require_patch_empty(const ClosingPatch& patch) const;
   template <class Visit>

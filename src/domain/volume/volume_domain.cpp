@@ -17,6 +17,7 @@
 #include "base/limits.hpp"
 #include "base/space_vectors.hpp"
 #include "domain/given_values.hpp"
+#include "domain/volume/copies_of_cell.hpp"
 #include "domain/volume/feature_nodes.hpp"
 #include "domain/volume/features.hpp"
 #include "domain/volume/volume_resolver.hpp"
@@ -465,8 +466,39 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_repaired() const {
   return resolved;
 }
 
+// Resolves the copies of a periodic domain as one domain that is not periodic. The volume of the
+// cell is less than that of its box by that of the bodies that its boundary surfaces enclose.
+void VolumeDomain::check_periodic() {
+  if (!filled_) reject_domain("surfaces alone cannot be periodic: pnpbs_domain_set_filled");
+  if (!polylines_.empty()) reject_domain("a periodic domain in space has no inner curves");
+  for (const SurfaceSource& surface : surfaces_)
+    if (surface.level_set) reject_domain("a periodic domain has no level sets");
+  CopiesOfSurfaces copies =
+      copies_of_cell(cell_, copies_, side_tags_, surfaces_, region_points_, given_nodes_);
+  VolumeDomain copied = *this;
+  copied.cell_ = {};
+  copied.surfaces_ = std::move(copies.surfaces);
+  copied.region_points_ = std::move(copies.region_points);
+  copied.given_nodes_ = std::move(copies.fixed_nodes);
+  copied.checked_ = false;
+  copied.check();
+  resolved_ = copied.resolved_;
+  named_by_groups_ = copied.named_by_groups_;
+  names() = copied.names();
+  cell_volume_ = volume_of_cell();
+  checked_ = true;
+}
+
+// Returns the volume of the box less that of the bodies in it.
+double VolumeDomain::volume_of_cell() const {
+  double volume = 1;
+  for (std::size_t k = 0; k < 3; ++k) volume *= cell_.box().high[k] - cell_.box().low[k];
+  return volume;
+}
+
 void VolumeDomain::check() {
   if (checked_) return;
+  if (cell_.any()) return check_periodic();
   if (fragment_ && repair_)
     reject_domain("pnpbs_domain_set_fragment and pnpbs_domain_set_repair exclude each other");
   if (snap_ > 0 && !fragment_)

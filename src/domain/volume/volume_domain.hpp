@@ -155,11 +155,13 @@ class VolumeDomain : public DomainBase<3> {
   const RegionIndex<3>* regions() const { return resolved_->regions.get(); }
   const VolumeSummary& summary() const { return resolved_->summary; }
   const Box<3>& bounds() const { return resolved_->summary.bounds; }
-  double volume() const { return resolved_->summary.volume; }
+  double volume() const { return cell_.any() ? cell_volume_ : resolved_->summary.volume; }
   double area() const { return resolved_->summary.area; }
   double measure() const { return filled_ ? volume() : area(); }
 
  private:
+  void check_periodic();
+  double volume_of_cell() const;
   GivenVolume given() const;
   std::unique_ptr<ResolvedVolume> resolve_touching() const;
   std::unique_ptr<ResolvedVolume> resolve_fragments() const;
@@ -176,6 +178,7 @@ class VolumeDomain : public DomainBase<3> {
   std::int64_t surfaces_given_ = 0, boxes_given_ = 0, balls_given_ = 0, cylinders_given_ = 0,
                level_sets_given_ = 0;
   bool filled_ = true;
+  double cell_volume_ = 0;        // volume of one period of a periodic domain
   std::optional<double> repair_;  // resolution of the repair, if one is requested
   bool repair_sound_ = false;
   std::optional<OverlapRule> fragment_;    // set if surfaces are split where they meet

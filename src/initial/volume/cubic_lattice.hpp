@@ -4,12 +4,14 @@
 // different d meet, the body-centred cubic lattice relaxes better.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "base/lattice.hpp"
+#include "base/periodic_cell.hpp"
 #include "base/types.hpp"
 #include "method/constants.hpp"
 
@@ -19,15 +21,21 @@ namespace pnpbs {
 class CubicLattice {
  public:
   // Chooses A15 if one lattice fills the `whole` domain. It is then stretched slightly, if
-  // `stretched`, to end alike at all sides of `bounds`.
-  CubicLattice(double d, const Box<3>& bounds, bool whole, bool stretched = true)
+  // `stretched`, to end alike at all sides of `bounds`, or to continue across those of a periodic
+  // cell.
+  CubicLattice(double d, const Box<3>& bounds, bool whole, bool stretched = true,
+               const PeriodicCell<3>& cell = {})
       : sites_(whole ? std::span<const Point<3>>(kA15) : kBodyCentred), low_(bounds.low) {
     const double first = d * (whole ? method::kFirstA15Layer : method::kFirstBodyCentredLayer);
     for (std::size_t k = 0; k < 3; ++k) {
       low_[k] += first;
       const double between = bounds.high[k] - bounds.low[k] - 2 * first;
       const double side = d * (whole ? std::cbrt(8 / method::kA15Density) : Lattice<3>::kCell);
-      cell_[k] = whole && stretched ? fitted(side, between) : side;
+      if (whole && cell.periodic(static_cast<int>(k)))
+        cell_[k] = cell.period(static_cast<int>(k)) /
+                   std::max(1.0, std::round(cell.period(static_cast<int>(k)) / side));
+      else
+        cell_[k] = whole && stretched ? fitted(side, between) : side;
     }
   }
 

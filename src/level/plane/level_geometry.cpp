@@ -11,6 +11,7 @@ LevelGeometry<2>::LevelGeometry(std::shared_ptr<const PlaneDomain> domain,
                                 std::shared_ptr<const Spacing<2>> spacing, const NodeLimit& limit)
     : domain_(std::move(domain)), spacing_(std::move(spacing)) {
   boundary_ = discretize_boundary(*domain_, evaluator(), limit.max_nodes);
+  if (cell().any()) find_images();
   // Fixed nodes off the curves act as edges of length zero, so inner nodes keep their clearance
   // from them. Nodes in the margin of a patch do not, because they move and no other nodes come
   // between them.
@@ -27,6 +28,13 @@ LevelGeometry<2>::LevelGeometry(std::shared_ptr<const PlaneDomain> domain,
   for (const BoundaryNode<2>& node : boundary_.nodes) positions.push_back(node.position);
   boundary_spacing_.resize(positions.size());
   evaluator()(std::ssize(positions), positions.data(), boundary_spacing_.data());
+}
+
+void LevelGeometry<2>::find_images() {
+  std::vector<Point<2>> positions;
+  for (const BoundaryNode<2>& node : boundary_.nodes) positions.push_back(node.position);
+  images_ = ImagesOfPoints<2>(cell(), positions);
+  for (std::size_t b = 0; b < positions.size(); ++b) boundary_.nodes[b].position = positions[b];
 }
 
 // Throws unless the closing patch leaves exactly one triangle open and nothing else bounds the

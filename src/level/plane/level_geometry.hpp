@@ -15,7 +15,9 @@
 #include "domain/plane/boundary.hpp"
 #include "domain/plane/plane_domain.hpp"
 #include "geometry/plane/incident_sectors.hpp"
+#include "level/images_of_points.hpp"
 #include "spacing/spacing.hpp"
+#include "tree/background_tree.hpp"
 
 namespace pnpbs {
 
@@ -34,6 +36,9 @@ class LevelGeometry<2> {
 
   const PlaneDomain& domain() const { return *domain_; }
   const Box<2>& bounds() const { return domain_->bounds(); }
+  // Returns the cell of a periodic domain, and what a tree covers.
+  const PeriodicCell<2>& cell() const { return domain_->cell(); }
+  TreeBounds<2> tree_bounds() const { return {bounds(), cell()}; }
   double measure() const { return domain_->area(); }
   GeometryKind kind() const { return domain_->kind(); }
   const Spacing<2>& spacing() const { return *spacing_; }
@@ -43,6 +48,16 @@ class LevelGeometry<2> {
   const std::vector<Warning>& warnings() const { return boundary_.warnings; }
   const IncidentSectors& sectors() const { return sectors_; }
   std::int64_t boundary_nodes() const { return static_cast<std::int64_t>(boundary_.nodes.size()); }
+  // Returns the boundary_node of a node where another copy of the periodic cell is seen as the
+  // cell.
+  std::int32_t boundary_seen_from(const Image<2>& image, Carrier, std::int32_t b) const {
+    return images_.seen_from(image, b);
+  }
+  // Returns whether a boundary node lies in the cell of a periodic domain. True for other domains.
+  bool boundary_node_in_cell(std::int64_t b) const {
+    return images_.in_cell(static_cast<std::int32_t>(b));
+  }
+  const ImagesOfPoints<2>& images_of_boundary_nodes() const { return images_; }
 
   // Return d at a boundary node, and the upper limit of its bubble (see bubbles_on_boundary).
   double boundary_spacing(std::int64_t b) const { return boundary_spacing_[index(b)]; }
@@ -70,12 +85,14 @@ class LevelGeometry<2> {
   }
 
  private:
+  void find_images();
   void require_one_triangle_left() const;
   static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
   std::shared_ptr<const PlaneDomain> domain_;
   std::shared_ptr<const Spacing<2>> spacing_;
   Boundary boundary_;
+  ImagesOfPoints<2> images_;  // of the boundary nodes of a periodic domain
   IncidentSectors sectors_;
   std::vector<double> bubble_bound_, boundary_spacing_;
 };

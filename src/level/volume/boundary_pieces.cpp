@@ -24,6 +24,8 @@ struct SamePiece {
 // The id of a node, and the piece it belongs to.
 struct NamedNode {
   std::int64_t id, piece;
+
+  void translate(const Translation<3>& by) { id = by.id(id); }
 };
 
 // The number of nodes that one rank has of a piece.

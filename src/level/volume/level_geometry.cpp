@@ -16,11 +16,23 @@ LevelGeometry<3>::LevelGeometry(std::shared_ptr<const VolumeDomain> domain,
       surface_(domain_->mesh(), domain_->features()) {
   features_ = place_feature_nodes(domain_->mesh(), domain_->features(), evaluator(), limit);
   project_to_creases(domain_->resolved(), features_, boundary().node_distance);
+  if (cell().any()) find_images();
   const Features& features = domain_->features();
   patch_bounds_.assign(index(features.patches), 0);
   for (std::size_t f = 0; f < features.patch.size(); ++f)
     if (features.patch[f] >= 0)
       patch_bounds_[index(features.patch[f])] = boundary().facets[f].bounds();
+}
+
+void LevelGeometry<3>::find_images() {
+  std::vector<Point<3>> points;
+  for (const FeatureNode& node : features_.nodes) points.push_back(node.position);
+  images_of_feature_nodes_ = ImagesOfPoints<3>(cell(), points);
+  for (std::size_t n = 0; n < points.size(); ++n) features_.nodes[n].position = points[n];
+  points.clear();
+  for (const BoundaryTriangle& facet : boundary().facets)
+    points.push_back(centroid(corners_of(boundary(), facet)));
+  images_of_facets_ = ImagesOfPoints<3>(cell(), points);
 }
 
 SpacingEvaluator<3> LevelGeometry<3>::evaluator() const {

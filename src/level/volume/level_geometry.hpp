@@ -17,7 +17,9 @@
 #include "domain/volume/surface.hpp"
 #include "domain/volume/volume_domain.hpp"
 #include "initial/incoming_nodes.hpp"
+#include "level/images_of_points.hpp"
 #include "spacing/spacing.hpp"
+#include "tree/background_tree.hpp"
 
 namespace pnpbs {
 
@@ -39,6 +41,9 @@ class LevelGeometry<3> {
 
   const VolumeDomain& domain() const { return *domain_; }
   const Box<3>& bounds() const { return bounds_; }  // box of all nodes
+  // Returns the cell of a periodic domain, and what a tree covers.
+  const PeriodicCell<3>& cell() const { return domain_->cell(); }
+  TreeBounds<3> tree_bounds() const { return {bounds(), cell()}; }
   double measure() const { return domain_->volume(); }
   GeometryKind kind() const { return kind_; }  // at the time of construction
   const Spacing<3>& spacing() const { return *spacing_; }
@@ -72,10 +77,21 @@ class LevelGeometry<3> {
            std::ranges::find(patch_bounds_, 0) != patch_bounds_.end();
   }
 
+  // Returns the boundary_node of a node where another copy of the periodic cell is seen as the
+  // cell.
+  std::int32_t boundary_seen_from(const Image<3>& image, Carrier carrier, std::int32_t on) const {
+    return carrier == Carrier::surface ? images_of_facets_.seen_from(image, on)
+                                       : images_of_feature_nodes_.seen_from(image, on);
+  }
+
+  // Returns whether a feature node lies in the cell of a periodic domain. True for other domains.
+  bool feature_node_in_cell(std::int32_t n) const { return images_of_feature_nodes_.in_cell(n); }
+
   // Returns the nodes on feature edges and in corners, the same on all ranks.
   IncomingNodes<3> feature_nodes() const;
 
  private:
+  void find_images();
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
   std::shared_ptr<const VolumeDomain> domain_;
@@ -84,6 +100,7 @@ class LevelGeometry<3> {
   Box<3> bounds_;
   Surface surface_;
   FeatureNodes features_;
+  ImagesOfPoints<3> images_of_facets_, images_of_feature_nodes_;  // in a periodic domain
   std::vector<char> patch_bounds_;  // per patch: whether the domain lies on only one side
   std::vector<Warning> warnings_;
 };

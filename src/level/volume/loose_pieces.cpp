@@ -102,6 +102,7 @@ std::vector<std::int64_t> beside_elements(const Level<3>& level,
 }  // namespace
 
 std::set<std::int64_t> surplus_pieces(const Level<3>& level, const BoundaryPieces& pieces) {
+  if (level.geometry.cell().any()) return {};  // the surfaces are those of several copies
   std::vector<std::pair<std::int64_t, std::int64_t>> by_size;
   for (const auto& [piece, nodes] : pieces.nodes) by_size.emplace_back(nodes, piece);
   std::ranges::sort(by_size);

@@ -102,8 +102,8 @@ void BadTriangleRepair::find_better_position(Candidate& candidate) const {
   for (double way = method::kRepairFirstWay; way >= method::kRepairLastWay; way *= 0.5)
     for (const Point<2>& direction : kDirections) {
       const double d = nodes_.d(i);
-      const Point<2> place =
-          allowed_place(i, {x[0] + way * d * direction[0], x[1] + way * d * direction[1]});
+      const Point<2> place = allowed_place(
+          i, nodes_.position_after(i, {way * d * direction[0], way * d * direction[1]}));
       find_values(i, place, after);
       const double worst = *std::min_element(after.begin(), after.end());
       if (worst <= best || makes_bad_worse(before, after)) continue;

@@ -138,7 +138,7 @@ std::int32_t SliverRepair::node_to_move(std::int32_t corner, std::uint64_t lot) 
     if (nodes_.moves(i)) choice.push_back(static_cast<std::int32_t>(i));
   });
   const auto hash = [&](std::int32_t i) {
-    return mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
+    return mixed(lot ^ static_cast<std::uint64_t>(nodes_.number(i)));
   };
   return *std::max_element(choice.begin(), choice.end(),
                            [&](std::int32_t i, std::int32_t j) { return hash(i) < hash(j); });
@@ -152,7 +152,8 @@ void SliverRepair::draw(std::int64_t number, double below) {
   for (const TetrahedronNodes& sliver : slivers_) {
     if (!small.any(corners_of(sliver))) continue;
     std::uint64_t lot = mixed(static_cast<std::uint64_t>(number) ^ bits_of(below));
-    for (const std::int32_t i : sliver) lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.id(i)));
+    for (const std::int32_t i : sliver)
+      lot = mixed(lot ^ static_cast<std::uint64_t>(nodes_.number(i)));
     const std::int32_t corner = corner_to_move(sliver, lot, number);
     if (!nodes_.owned(corner)) continue;
     Attempt attempt{lot, {}, sliver, node_to_move(corner, lot), corner, {}};
@@ -305,8 +306,8 @@ void SliverRepair::try_moves(Attempt& attempt) const {
     const std::uint64_t bits = bits_of_trial(attempt.lot, trial);
     const double way = way_to_try(attempt, bits);
     const Point<3> direction = direction_to_try(attempt, trial, bits);
-    Point<3> x = nodes_.position(i);
-    for (std::size_t k = 0; k < 3; ++k) x[k] += way * direction[k];
+    Point<3> x =
+        nodes_.position_after(i, {way * direction[0], way * direction[1], way * direction[2]});
     if (too_far(i, x) || !allowed_(i, x) || !move.go_to(x)) continue;
     const StarChange& change = move.change();
     if (penalty(change.made, i, x) >= around) continue;  // rejects most trials cheaply

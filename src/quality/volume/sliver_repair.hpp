@@ -39,6 +39,12 @@ struct ChangedTetrahedron {
   std::array<std::int64_t, 4> corners;  // ids, positively oriented
   std::int32_t on;                      // new facet of the moved node, or -1
   std::int32_t made;                    // 1: created, 0: removed
+
+  void translate(const Translation<3>& by) {
+    node = by.id(node);
+    x = by(x);
+    for (std::int64_t& corner : corners) corner = by.id(corner);
+  }
 };
 
 // The node that is to move for a sliver in a round, as sent to other ranks.
@@ -46,6 +52,11 @@ struct SliverDraw {
   std::uint64_t lot;
   std::array<std::int64_t, 4> sliver;  // ids of its corners, ascending
   std::int64_t node;                   // id
+
+  void translate(const Translation<3>& by) {
+    for (std::int64_t& corner : sliver) corner = by.id(corner);
+    node = by.id(node);
+  }
 };
 
 // Functions by which nodes move along surfaces.
