@@ -914,13 +914,14 @@ contains
     if (status >= 0) name = text_of(c)
   end subroutine
 
-  !> Adds a box to a domain in space; its sides bound the domain. Local.
+  !> Adds a box to a domain in space; its sides bound the domain or lie in it. Local.
   !>   low, high  (3)
   !>   tag        optional: nonzero; default: 1
-  subroutine domain_add_box(self, low, high, tag, stat, errmsg)
+  !>   role       optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
+  subroutine domain_add_box(self, low, high, tag, stat, errmsg, role)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: low(:), high(:)
-    integer(c_int32_t), intent(in), optional :: tag
+    integer(c_int32_t), intent(in), optional :: tag, role
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
@@ -928,7 +929,8 @@ contains
     call given%check_rows('low', size(low), 3)
     call given%check_rows('high', size(high), 3)
     status = PNPBS_OK
-    if (.not. given%is_wrong()) status = c_domain_add_box(self%c, low, high, tag_or_one(tag))
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_box_surface(self%c, role_or_boundary(role), low, high, tag_or_one(tag))
     call conclude('domain%add_box', status, stat, errmsg, given)
   end subroutine
 
@@ -936,17 +938,20 @@ contains
   !>   centre  (3)
   !>   radius  > 0
   !>   tag     optional: nonzero; default: 1
-  subroutine domain_add_ball(self, centre, radius, tag, stat, errmsg)
+  !>   role    optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
+  subroutine domain_add_ball(self, centre, radius, tag, stat, errmsg, role)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: centre(:), radius
-    integer(c_int32_t), intent(in), optional :: tag
+    integer(c_int32_t), intent(in), optional :: tag, role
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
     integer(c_int) :: status
     call given%check_rows('centre', size(centre), 3)
     status = PNPBS_OK
-    if (.not. given%is_wrong()) status = c_domain_add_ball(self%c, centre, radius, tag_or_one(tag))
+    if (.not. given%is_wrong()) &
+      status = c_domain_add_ball_surface(self%c, role_or_boundary(role), centre, radius, &
+                                         tag_or_one(tag))
     call conclude('domain%add_ball', status, stat, errmsg, given)
   end subroutine
 
@@ -954,10 +959,11 @@ contains
   !>   begin, end  (3), the centres of its two circles
   !>   radius      > 0
   !>   tag         optional: nonzero; default: 1
-  subroutine domain_add_cylinder(self, begin, end, radius, tag, stat, errmsg)
+  !>   role        optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
+  subroutine domain_add_cylinder(self, begin, end, radius, tag, stat, errmsg, role)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: begin(:), end(:), radius
-    integer(c_int32_t), intent(in), optional :: tag
+    integer(c_int32_t), intent(in), optional :: tag, role
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
@@ -966,7 +972,8 @@ contains
     call given%check_rows('end', size(end), 3)
     status = PNPBS_OK
     if (.not. given%is_wrong()) &
-      status = c_domain_add_cylinder(self%c, begin, end, radius, tag_or_one(tag))
+      status = c_domain_add_cylinder_surface(self%c, role_or_boundary(role), begin, end, radius, &
+                                             tag_or_one(tag))
     call conclude('domain%add_cylinder', status, stat, errmsg, given)
   end subroutine
 
@@ -4293,6 +4300,13 @@ contains
     integer(c_int32_t) :: value
     value = 1
     if (present(tag)) value = tag
+  end function
+
+  function role_or_boundary(role) result(value)
+    integer(c_int32_t), intent(in), optional :: role
+    integer(c_int32_t) :: value
+    value = PNPBS_BOUNDARY
+    if (present(role)) value = role
   end function
 
   function angle_or_40(feature_angle) result(value)

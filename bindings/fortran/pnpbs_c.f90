@@ -573,6 +573,41 @@ module pnpbs_c
       integer(c_int) :: c_domain_add_cylinder
     end function
 
+    function c_domain_add_box_surface(domain, role, low, high, tag) bind(C, &
+      name="pnpbs_domain_add_box_surface")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      real(c_double), intent(in) :: low(*), high(*)
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_box_surface
+    end function
+
+    function c_domain_add_ball_surface(domain, role, centre, radius, tag) bind(C, &
+      name="pnpbs_domain_add_ball_surface")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      real(c_double), intent(in) :: centre(*)
+      real(c_double), value :: radius
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_ball_surface
+    end function
+
+    function c_domain_add_cylinder_surface(domain, role, begin, end, radius, tag) bind(C, &
+      name="pnpbs_domain_add_cylinder_surface")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      integer(c_int32_t), value :: role
+      real(c_double), intent(in) :: begin(*), end(*)
+      real(c_double), value :: radius
+      integer(c_int32_t), value :: tag
+      integer(c_int) :: c_domain_add_cylinder_surface
+    end function
+
     function c_domain_add_level_set(domain, level_set, user, low, high, resolution, tag) bind(C, &
       name="pnpbs_domain_add_level_set")
       import

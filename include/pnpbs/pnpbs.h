@@ -501,6 +501,32 @@ PNPBS_API pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *
 PNPBS_API pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
                                                  const double *end, double radius, int32_t tag);
 
+/** Adds the surface of a box to a domain in space with a role, as pnpbs_domain_add_surface does.
+ *  With PNPBS_BOUNDARY it is pnpbs_domain_add_box. Local.
+ *  @param[in] role      PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] low,high  [3] */
+PNPBS_API pnpbs_status pnpbs_domain_add_box_surface(pnpbs_domain domain, int32_t role,
+                                                    const double *low, const double *high,
+                                                    int32_t tag);
+
+/** Adds the surface of a ball to a domain in space with a role, as triangles within 1e-4 of the
+ *  radius. With PNPBS_BOUNDARY it is pnpbs_domain_add_ball. Local.
+ *  @param[in] role    PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] centre  [3]
+ *  @param[in] radius  > 0 */
+PNPBS_API pnpbs_status pnpbs_domain_add_ball_surface(pnpbs_domain domain, int32_t role,
+                                                     const double *centre, double radius,
+                                                     int32_t tag);
+
+/** Adds the surface of a circular cylinder to a domain in space with a role, as triangles within
+ *  1e-4 of the radius. With PNPBS_BOUNDARY it is pnpbs_domain_add_cylinder. Local.
+ *  @param[in] role       PNPBS_BOUNDARY or PNPBS_INNER
+ *  @param[in] begin,end  [3], the centres of its two circles
+ *  @param[in] radius     > 0 */
+PNPBS_API pnpbs_status pnpbs_domain_add_cylinder_surface(pnpbs_domain domain, int32_t role,
+                                                         const double *begin, const double *end,
+                                                         double radius, int32_t tag);
+
 /** Level set callback: fills values[n] with f at coordinates[n][dim], dim = 3 in space; the body is
  *  where f < 0. Must be a pure function of the point, the same on all ranks, continuous and finite
  *  in the whole box; it need not be a distance. Return 0, or nonzero to fail the call with

@@ -26,7 +26,9 @@ from markdown import names_cell, table, wrapped
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOTE = "<!-- Made by scripts/reference/make_reference.py from the sources: change those. -->\n"
 # Functions of C, and those that have further arguments, which are optional in the languages.
-EXTENDED = {"pnpbs_geo_read": "pnpbs_geo_read_regions"}
+EXTENDED = {"pnpbs_geo_read": "pnpbs_geo_read_regions",
+            **{f"pnpbs_domain_add_{body}": f"pnpbs_domain_add_{body}_surface"
+               for body in ("box", "ball", "cylinder")}}
 
 
 class Sources:

@@ -149,27 +149,44 @@ pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double* low, c
 
 pnpbs_status pnpbs_domain_add_box(pnpbs_domain domain, const double* low, const double* high,
                                   int32_t tag) {
-  return change_volume(domain, [&](VolumeDomain& volume) {
-    require_pointer(low, "low");
-    require_pointer(high, "high");
-    volume.add_box(space_point_from(low), space_point_from(high), tag);
-  });
+  return pnpbs_domain_add_box_surface(domain, PNPBS_BOUNDARY, low, high, tag);
 }
 
 pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double* centre, double radius,
                                    int32_t tag) {
-  return change_volume(domain, [&](VolumeDomain& volume) {
-    require_pointer(centre, "centre");
-    volume.add_ball(space_point_from(centre), radius, tag);
-  });
+  return pnpbs_domain_add_ball_surface(domain, PNPBS_BOUNDARY, centre, radius, tag);
 }
 
 pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double* begin, const double* end,
                                        double radius, int32_t tag) {
+  return pnpbs_domain_add_cylinder_surface(domain, PNPBS_BOUNDARY, begin, end, radius, tag);
+}
+
+pnpbs_status pnpbs_domain_add_box_surface(pnpbs_domain domain, int32_t role, const double* low,
+                                          const double* high, int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(low, "low");
+    require_pointer(high, "high");
+    volume.add_box(space_point_from(low), space_point_from(high), tag, surface_role_from(role));
+  });
+}
+
+pnpbs_status pnpbs_domain_add_ball_surface(pnpbs_domain domain, int32_t role, const double* centre,
+                                           double radius, int32_t tag) {
+  return change_volume(domain, [&](VolumeDomain& volume) {
+    require_pointer(centre, "centre");
+    volume.add_ball(space_point_from(centre), radius, tag, surface_role_from(role));
+  });
+}
+
+pnpbs_status pnpbs_domain_add_cylinder_surface(pnpbs_domain domain, int32_t role,
+                                               const double* begin, const double* end,
+                                               double radius, int32_t tag) {
   return change_volume(domain, [&](VolumeDomain& volume) {
     require_pointer(begin, "begin");
     require_pointer(end, "end");
-    volume.add_cylinder(space_point_from(begin), space_point_from(end), radius, tag);
+    volume.add_cylinder(space_point_from(begin), space_point_from(end), radius, tag,
+                        surface_role_from(role));
   });
 }
 

@@ -78,6 +78,9 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_add_box, (handle, xyz, xyz + 3, 1))                                        \
   X(domain_add_ball, (handle, xyz, 1.0, 1))                                           \
   X(domain_add_cylinder, (handle, xyz, xyz + 3, 1.0, 1))                              \
+  X(domain_add_box_surface, (handle, PNPBS_INNER, xyz, xyz + 3, 1))                   \
+  X(domain_add_ball_surface, (handle, PNPBS_INNER, xyz, 1.0, 1))                      \
+  X(domain_add_cylinder_surface, (handle, PNPBS_INNER, xyz, xyz + 3, 1.0, 1))         \
   X(domain_tag_outline, (handle, volume_ring_at, NULL, 5, out.integers))              \
   X(domain_set_corner_angle, (handle, 30.0))                                          \
   X(domain_set_snap, (handle, 1e-3))                                                  \

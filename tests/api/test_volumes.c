@@ -274,6 +274,51 @@ START_TEST(bodies_that_the_spacing_does_not_resolve) {
 }
 END_TEST
 
+/* Returns, by formulas, whether a point lies in the inner body of the next test. */
+static int in_primitive(int kind, const double* x) {
+  const double u = x[0] - 0.5, v = x[1] - 0.5, w = x[2] - 0.5;
+  if (kind == 0) return fmax(fabs(u), fmax(fabs(v), fabs(w))) < 0.2;
+  if (kind == 1) return u * u + v * v + w * w < 0.09;
+  return u * u + v * v < 0.04 && w > 0 && w < 0.3;
+}
+
+/* An inner box, ball or cylinder divides the cube around it, which has the same tag. */
+START_TEST(inner_primitives) {
+  static const double low[] = {0, 0, 0}, high[] = {1, 1, 1}, middle[] = {0.5, 0.5, 0.5};
+  static const double from[] = {0.3, 0.3, 0.3}, to[] = {0.7, 0.7, 0.7}, end[] = {0.5, 0.5, 0.8};
+  static const double inside[] = {0.5, 0.5, 0.6}, outside[] = {0.1, 0.1, 0.1};
+  job it = {NULL, NULL, NULL};
+  double volume;
+  int k, found = 0;
+  MUST(pnpbs_context_create_serial(&it.context));
+  MUST(pnpbs_domain_create(it.context, 3, &it.domain));
+  MUST(pnpbs_domain_add_box_surface(it.domain, PNPBS_BOUNDARY, low, high, 1));
+  if (_i == 0) MUST(pnpbs_domain_add_box_surface(it.domain, PNPBS_INNER, from, to, 1));
+  if (_i == 1) MUST(pnpbs_domain_add_ball_surface(it.domain, PNPBS_INNER, middle, 0.3, 1));
+  if (_i == 2) MUST(pnpbs_domain_add_cylinder_surface(it.domain, PNPBS_INNER, middle, end, 0.2, 1));
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_box_surface(it.domain, 2, low, high, 1), "role",
+            "2");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_ball_surface(it.domain, -1, low, 1, 1), "role",
+            "-1");
+  MUST_FAIL(PNPBS_ERROR_ARGUMENT, pnpbs_domain_add_cylinder_surface(it.domain, 3, low, high, 1, 1),
+            "role", "3");
+  MUST(pnpbs_domain_add_region(it.domain, inside, 7));
+  MUST(pnpbs_domain_add_region(it.domain, outside, 8));
+  MUST(pnpbs_domain_measure(it.domain, &volume));
+  ck_assert_double_eq_tol(volume, 1, 1e-12);
+  for (k = 0; k < 1000; ++k) {
+    const double x[] = {0.0513 + 0.1 * (k % 10), 0.0527 + 0.1 * (k / 10 % 10),
+                        0.0541 + 0.1 * (k / 100)};
+    int32_t tag;
+    MUST(pnpbs_domain_regions_at(it.domain, 1, x, 1, &tag));
+    ck_assert_int_eq(tag, in_primitive(_i, x) ? 7 : 8);
+    found += tag == 7;
+  }
+  ck_assert_int_gt(found, 20);
+  job_end(&it);
+}
+END_TEST
+
 /* Boundary nodes lie on the surface up to rounding, which is 2^-47 of the largest coordinate. */
 START_TEST(bodies_far_from_the_origin) {
   static const double offsets[] = {0, 1e5, -1e8, 1e9};
@@ -839,6 +884,7 @@ TEST_SUITE(test_volumes) {
   if (WHEN_SANITIZED(0, 1)) tcase_add_test(tests, distances_of_repairs_are_statistics);
   tcase_add_loop_test(tests, no_vacancies_beside_a_wall, 0, WHEN_SANITIZED(1, 2));
   tcase_add_loop_test(tests, stopped_by_the_monitor, 0, WHEN_SANITIZED(3, 5));
+  tcase_add_loop_test(tests, inner_primitives, 0, 3);
   tcase_add_test(tests, by_steps);
   tcase_add_test(tests, levels_are_told_apart);
   tcase_add_test(tests, fills_count_as_inserted);

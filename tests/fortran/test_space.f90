@@ -40,7 +40,7 @@ contains
   subroutine about_shapes
     type(pnpbs_domain) :: domain
     real(c_double) :: low(3), high(3)
-    integer(c_int32_t) :: dim
+    integer(c_int32_t) :: dim, tags(4)
     call domain%create(context, 3)
     call domain%dimension(dim)
     call expect(dim == 3, 'dimension of a domain in space')
@@ -50,6 +50,18 @@ contains
     call expect(all(low == [-1d0, 0d0, 2d0]) .and. all(high == [1d0, 3d0, 6d0]), 'bounds')
     call domain%add_ball([0d0, 1.5d0, 4d0], 0.5d0)
     call expect(abs(volume(domain) - (24 - pi / 6)) < 1d-3, 'a ball in the box is a cavity')
+    call domain%add_box([-0.9d0, 0.1d0, 2.1d0], [-0.6d0, 0.9d0, 3d0], role=PNPBS_INNER)
+    call domain%add_ball([0d0, 0.5d0, 5.5d0], 0.3d0, role=PNPBS_INNER)
+    call domain%add_cylinder([0d0, 2.5d0, 2.5d0], [0d0, 2.5d0, 5d0], 0.3d0, role=PNPBS_INNER)
+    call expect(abs(volume(domain) - (24 - pi / 6)) < 1d-3, 'inner bodies divide the box')
+    call domain%add_region([-0.7d0, 0.2d0, 2.2d0], 3)
+    call domain%add_region([0d0, 0.5d0, 5.5d0], 4)
+    call domain%add_region([0d0, 2.5d0, 3d0], 5)
+    call domain%regions_at(reshape([-0.7d0, 0.8d0, 2.9d0, 0d0, 0.5d0, 5.3d0, 0.2d0, 2.5d0, 4.9d0, &
+                                    -0.7d0, 0.8d0, 3.1d0], [3, 4]), tags)
+    call expect(all(tags == [3, 4, 5, 0]), 'the regions in inner bodies')
+    call domain%add_box(zero, one, role=2, stat=stat, errmsg=errmsg)
+    call expect_failure(stat, PNPBS_ERROR_ARGUMENT, errmsg, 'role')
     call domain%destroy
     call domain%create(context, 3)
     call domain%add_cylinder([0d0, 0d0, 1d0], [0d0, 0d0, 4d0], 0.5d0, 2)

@@ -79,6 +79,12 @@ pnpbs_status pnpbs_domain_add_ball(pnpbs_domain domain, const double *centre, do
     int32_t tag);
 pnpbs_status pnpbs_domain_add_cylinder(pnpbs_domain domain, const double *begin,
     const double *end, double radius, int32_t tag);
+pnpbs_status pnpbs_domain_add_box_surface(pnpbs_domain domain, int32_t role,
+    const double *low, const double *high, int32_t tag);
+pnpbs_status pnpbs_domain_add_ball_surface(pnpbs_domain domain, int32_t role,
+    const double *centre, double radius, int32_t tag);
+pnpbs_status pnpbs_domain_add_cylinder_surface(pnpbs_domain domain, int32_t role,
+    const double *begin, const double *end, double radius, int32_t tag);
 pnpbs_status pnpbs_domain_add_level_set(pnpbs_domain domain, pnpbs_level_set_fn level_set,
     void *user, const double *low, const double *high, double resolution, int32_t tag);
 pnpbs_status pnpbs_domain_add_arc(pnpbs_domain domain, int32_t role, const double *centre,

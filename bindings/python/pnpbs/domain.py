@@ -17,7 +17,6 @@ from . import _interface
 from ._arrays import as_indices, as_point, as_points, as_tags
 from ._callbacks import curve_callback, level_set_callback, no_spacing, spacing_callback
 from ._interface import library
-from ._primitives import ball_triangles, box_triangles, cylinder_triangles
 from ._summaries import summary
 from ._types import ArrayFunction, Doubles, Int32s, Path, Role
 from .context import Context, Handle
@@ -161,7 +160,7 @@ class Domain(Handle):
         self.context._check(getattr(library(), f"pnpbs_domain_{name}")(self._live(), *arguments))
         verb, _, what = name.partition("_")
         if verb in ("add", "read", "parse"):
-            self._added[what] += 1
+            self._added[what.replace("_surface", "")] += 1
         return self
 
     @property
@@ -289,19 +288,15 @@ class Domain(Handle):
                 role: Role = "boundary", *, tags: Optional[int] = None) -> Domain:
         """Adds a box to a domain in space. Its sides bound the domain, or with the role "inner" lie
         in it and nodes follow them. `low` and `high` are opposite corners."""
-        corners = as_point(low, 3, "low"), as_point(high, 3, "high")
-        if _role_number(role) == _interface.INNER and np.all(corners[0] < corners[1]):
-            return self._add_inner("box", box_triangles(*corners), _one_tag(tag, tags))
-        return self._call("add_box", *corners, _one_tag(tag, tags))
+        return self._call("add_box_surface", _role_number(role), as_point(low, 3, "low"),
+                          as_point(high, 3, "high"), _one_tag(tag, tags))
 
     def add_ball(self, centre: ArrayLike, radius: float, tag: Optional[int] = None,
                  role: Role = "boundary", *, tags: Optional[int] = None) -> Domain:
         """Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Its surface
         bounds the domain, or with the role "inner" lies in it and nodes follow it."""
-        middle = as_point(centre, 3, "centre")
-        if _role_number(role) == _interface.INNER and radius > 0:
-            return self._add_inner("ball", ball_triangles(middle, radius), _one_tag(tag, tags))
-        return self._call("add_ball", middle, radius, _one_tag(tag, tags))
+        return self._call("add_ball_surface", _role_number(role), as_point(centre, 3, "centre"),
+                          radius, _one_tag(tag, tags))
 
     def add_cylinder(self, begin: ArrayLike, end: ArrayLike, radius: float,
                      tag: Optional[int] = None, role: Role = "boundary", *,
@@ -309,20 +304,8 @@ class Domain(Handle):
         """Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius.
         Its surface bounds the domain, or with the role "inner" lies in it and nodes follow it.
         `begin` and `end` are the centres of its two circles."""
-        ends = as_point(begin, 3, "begin"), as_point(end, 3, "end")
-        if _role_number(role) == _interface.INNER and radius > 0 and np.any(ends[0] != ends[1]):
-            return self._add_inner("cylinder", cylinder_triangles(*ends, radius),
-                                   _one_tag(tag, tags))
-        return self._call("add_cylinder", *ends, radius, _one_tag(tag, tags))
-
-    def _add_inner(self, what: str, triangles: Doubles, tag: int) -> Domain:
-        """Adds triangles of shape (n, 3, 3) as an inner surface. The library has boxes, balls and
-        cylinders that bound the domain only; their invalid arguments are left to it."""
-        self.add_surface(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3),
-                         "inner", tag=tag)
-        self._added["surface"] -= 1
-        self._added += Counter([what])  # drops counts of 0
-        return self
+        return self._call("add_cylinder_surface", _role_number(role), as_point(begin, 3, "begin"),
+                          as_point(end, 3, "end"), radius, _one_tag(tag, tags))
 
     def add_level_set(self, level_set: ArrayFunction, low: ArrayLike, high: ArrayLike,
                       resolution: float, tag: Optional[int] = None, *,

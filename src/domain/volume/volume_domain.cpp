@@ -217,6 +217,12 @@ void VolumeDomain::add_source(SurfaceSource source, const char* kind, std::int64
   checked_ = false;
 }
 
+void VolumeDomain::add_primitive(SurfaceSource source, SurfaceRole role, const char* kind,
+                                 std::int64_t& given) {
+  source.role = role;
+  add_source(std::move(source), kind, given);
+}
+
 void VolumeDomain::add_surface(SurfaceRole role, std::int64_t vertices, const double* xyz,
                                std::int64_t triangles, const std::int64_t* corners,
                                const std::int32_t* tags, double feature_angle) {
@@ -257,32 +263,34 @@ void VolumeDomain::set_role(std::int32_t tag, SurfaceRole role) {
 }
 
 void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high,
-                           const std::array<std::int32_t, 6>& tags) {
+                           const std::array<std::int32_t, 6>& tags, SurfaceRole role) {
   require_box({low, high});
   read_tags("tags", 6, tags.data());
-  add_source(box_surface(low, high, tags), "box", boxes_given_);
+  add_primitive(box_surface(low, high, tags), role, "box", boxes_given_);
 }
 
-void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag) {
+void VolumeDomain::add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag,
+                           SurfaceRole role) {
   require_tag("tag", tag);
-  add_box(low, high, {tag, tag, tag, tag, tag, tag});
+  add_box(low, high, {tag, tag, tag, tag, tag, tag}, role);
 }
 
-void VolumeDomain::add_ball(const Point<3>& centre, double radius, std::int32_t tag) {
+void VolumeDomain::add_ball(const Point<3>& centre, double radius, std::int32_t tag,
+                            SurfaceRole role) {
   require_point<3>("centre", centre);
   require_radius(radius);
   require_tag("tag", tag);
-  add_source(ball_surface(centre, radius, tag), "ball", balls_given_);
+  add_primitive(ball_surface(centre, radius, tag), role, "ball", balls_given_);
 }
 
 void VolumeDomain::add_cylinder(const Point<3>& begin, const Point<3>& end, double radius,
-                                std::int32_t tag) {
+                                std::int32_t tag, SurfaceRole role) {
   require_point<3>("begin", begin);
   require_point<3>("end", end);
   if (begin == end) reject("begin and end are both " + point_text(begin));
   require_radius(radius);
   require_tag("tag", tag);
-  add_source(cylinder_surface(begin, end, radius, tag), "cylinder", cylinders_given_);
+  add_primitive(cylinder_surface(begin, end, radius, tag), role, "cylinder", cylinders_given_);
 }
 
 void VolumeDomain::add_level_set(LevelSetFunction f, const Box<3>& box, double resolution,

@@ -98,11 +98,15 @@ class VolumeDomain : public DomainBase<3> {
   // Sets the role of all triangles with this tag, in place of the role of their surface.
   void set_role(std::int32_t tag, SurfaceRole role);
   // The tags are those of the sides at low x, high x, low y, high y, low z, high z.
-  void add_box(const Point<3>& low, const Point<3>& high, const std::array<std::int32_t, 6>& tags);
-  void add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag);
+  void add_box(const Point<3>& low, const Point<3>& high, const std::array<std::int32_t, 6>& tags,
+               SurfaceRole role = SurfaceRole::boundary);
+  void add_box(const Point<3>& low, const Point<3>& high, std::int32_t tag,
+               SurfaceRole role = SurfaceRole::boundary);
   // Adds triangles that lie within 1e-4 of the radius of the true surface; so does add_cylinder.
-  void add_ball(const Point<3>& centre, double radius, std::int32_t tag);
-  void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag);
+  void add_ball(const Point<3>& centre, double radius, std::int32_t tag,
+                SurfaceRole role = SurfaceRole::boundary);
+  void add_cylinder(const Point<3>& begin, const Point<3>& end, double radius, std::int32_t tag,
+                    SurfaceRole role = SurfaceRole::boundary);
   // Adds the body where f < 0. Evaluates f now and again where nodes are put on its surface.
   void add_level_set(LevelSetFunction f, const Box<3>& box, double resolution, std::int32_t tag);
   void add_level_set(std::shared_ptr<const LevelSet> set, std::int32_t tag);
@@ -171,6 +175,7 @@ class VolumeDomain : public DomainBase<3> {
   std::vector<SurfaceSource> repaired_surfaces(std::vector<Warning>& warnings,
                                                RepairDistances& distances) const;
   void add_source(SurfaceSource source, const char* kind, std::int64_t& given);
+  void add_primitive(SurfaceSource source, SurfaceRole role, const char* kind, std::int64_t& given);
 
   std::vector<SurfaceSource> surfaces_;
   std::vector<InnerPolyline> polylines_;

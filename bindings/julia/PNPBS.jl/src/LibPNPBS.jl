@@ -243,6 +243,21 @@ pnpbs_domain_add_cylinder(domain, from, to, radius, tag) =
         domain::pnpbs_domain, from::Ptr{Cdouble}, to::Ptr{Cdouble}, radius::Cdouble,
         tag::Int32)::pnpbs_status
 
+pnpbs_domain_add_box_surface(domain, role, low, high, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_box_surface))(
+        domain::pnpbs_domain, role::Int32, low::Ptr{Cdouble}, high::Ptr{Cdouble},
+        tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_ball_surface(domain, role, centre, radius, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_ball_surface))(
+        domain::pnpbs_domain, role::Int32, centre::Ptr{Cdouble}, radius::Cdouble,
+        tag::Int32)::pnpbs_status
+
+pnpbs_domain_add_cylinder_surface(domain, role, from, to, radius, tag) =
+    @ccall $(symbol(:pnpbs_domain_add_cylinder_surface))(
+        domain::pnpbs_domain, role::Int32, from::Ptr{Cdouble}, to::Ptr{Cdouble}, radius::Cdouble,
+        tag::Int32)::pnpbs_status
+
 pnpbs_domain_add_level_set(domain, level_set, user, low, high, resolution, tag) =
     @ccall $(symbol(:pnpbs_domain_add_level_set))(
         domain::pnpbs_domain, level_set::pnpbs_level_set_fn, user::Ptr{Cvoid}, low::Ptr{Cdouble},

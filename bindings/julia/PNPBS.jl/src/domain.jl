@@ -254,38 +254,46 @@ function tag_name(domain, i)
 end
 
 """
-    add_box!(domain, low, high; tag = 1)
+    add_box!(domain, low, high; tag = 1, role = :boundary)
 
-Adds a box to a domain in space. Its sides bound the domain. `low` and `high` are opposite corners.
+Adds a box to a domain in space. Its sides bound the domain, or with the role `:inner` lie in it and
+nodes follow them. `low` and `high` are opposite corners.
 """
-function add_box!(domain::Domain, low, high; tag::Integer = 1)
+function add_box!(domain::Domain, low, high; tag::Integer = 1, role::Symbol = :boundary)
     check(domain.context,
-          LibPNPBS.pnpbs_domain_add_box(live(domain), as_point(low, 3, "low"),
-                                        as_point(high, 3, "high"), tag))
+          LibPNPBS.pnpbs_domain_add_box_surface(live(domain), role_number(role),
+                                                as_point(low, 3, "low"), as_point(high, 3, "high"),
+                                                tag))
     return domain
 end
 
 """
-    add_ball!(domain, centre, radius; tag = 1)
+    add_ball!(domain, centre, radius; tag = 1, role = :boundary)
 
-Adds a ball to a domain in space, as triangles within 1e-4 of the radius.
+Adds a ball to a domain in space, as triangles within 1e-4 of the radius. Its surface bounds the
+domain, or with the role `:inner` lies in it and nodes follow it.
 """
-function add_ball!(domain::Domain, centre, radius::Real; tag::Integer = 1)
+function add_ball!(domain::Domain, centre, radius::Real; tag::Integer = 1,
+                   role::Symbol = :boundary)
     check(domain.context,
-          LibPNPBS.pnpbs_domain_add_ball(live(domain), as_point(centre, 3, "centre"), radius, tag))
+          LibPNPBS.pnpbs_domain_add_ball_surface(live(domain), role_number(role),
+                                                 as_point(centre, 3, "centre"), radius, tag))
     return domain
 end
 
 """
-    add_cylinder!(domain, from, to, radius; tag = 1)
+    add_cylinder!(domain, from, to, radius; tag = 1, role = :boundary)
 
-Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius. `from` and
-`to` are the centres of its two circles.
+Adds a circular cylinder to a domain in space, as triangles within 1e-4 of the radius. Its surface
+bounds the domain, or with the role `:inner` lies in it and nodes follow it. `from` and `to` are the
+centres of its two circles.
 """
-function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1)
+function add_cylinder!(domain::Domain, from, to, radius::Real; tag::Integer = 1,
+                       role::Symbol = :boundary)
     check(domain.context,
-          LibPNPBS.pnpbs_domain_add_cylinder(live(domain), as_point(from, 3, "from"),
-                                             as_point(to, 3, "to"), radius, tag))
+          LibPNPBS.pnpbs_domain_add_cylinder_surface(live(domain), role_number(role),
+                                                     as_point(from, 3, "from"),
+                                                     as_point(to, 3, "to"), radius, tag))
     return domain
 end
 

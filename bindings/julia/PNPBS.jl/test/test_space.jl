@@ -43,6 +43,16 @@ placed_in(domain, spacing) =
         @test bounds(domain) == ([-1, 0, 2], [1, 3, 6])
         add_ball!(domain, [0, 1.5, 4], 0.5)
         @test measure(domain) ≈ 24 - pi / 6 rtol = 1e-4
+        # Inner bodies divide the box, which has the tag of two of them.
+        add_box!(domain, (-0.9, 0.1, 2.1), (-0.6, 0.9, 3); role = :inner, tag = 7)
+        add_ball!(domain, (0, 0.5, 5.5), 0.3; role = :inner, tag = 7)
+        add_cylinder!(domain, (0, 2.5, 2.5), (0, 2.5, 5), 0.3; role = :inner)
+        @test measure(domain) ≈ 24 - pi / 6 rtol = 1e-4
+        add_region!(domain, (-0.7, 0.2, 2.2), 3)
+        add_region!(domain, (0, 0.5, 5.5), 4)
+        add_region!(domain, (0, 2.5, 3), 5)
+        @test regions_at(domain, [-0.7 0 0.2 -0.7; 0.8 0.5 2.5 0.8; 2.9 5.3 4.9 3.1]) == [3 4 5 0]
+        @test_throws ArgumentError add_ball!(domain, (0, 0, 0), 1; role = :outer)
         rod = add_cylinder!(Domain(context; dim = 3), (0, 0, 1), (0, 0, 4), 0.5; tag = 2)
         @test measure(rod) ≈ 0.75pi rtol = 1e-3
         add_fixed_nodes!(rod, [0 0 2]'; tags = 9)
