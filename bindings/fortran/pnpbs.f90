@@ -918,7 +918,7 @@ contains
   !>   low, high  (3)
   !>   tag        optional: nonzero; default: 1
   !>   role       optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
-  subroutine domain_add_box(self, low, high, tag, stat, errmsg, role)
+  subroutine domain_add_box(self, low, high, tag, role, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: low(:), high(:)
     integer(c_int32_t), intent(in), optional :: tag, role
@@ -939,7 +939,7 @@ contains
   !>   radius  > 0
   !>   tag     optional: nonzero; default: 1
   !>   role    optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
-  subroutine domain_add_ball(self, centre, radius, tag, stat, errmsg, role)
+  subroutine domain_add_ball(self, centre, radius, tag, role, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: centre(:), radius
     integer(c_int32_t), intent(in), optional :: tag, role
@@ -960,7 +960,7 @@ contains
   !>   radius      > 0
   !>   tag         optional: nonzero; default: 1
   !>   role        optional: PNPBS_BOUNDARY, the default, or PNPBS_INNER
-  subroutine domain_add_cylinder(self, begin, end, radius, tag, stat, errmsg, role)
+  subroutine domain_add_cylinder(self, begin, end, radius, tag, role, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: begin(:), end(:), radius
     integer(c_int32_t), intent(in), optional :: tag, role
