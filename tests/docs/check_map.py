@@ -10,7 +10,7 @@ import re
 import sys
 import tempfile
 
-LANGUAGES = {"c": "C", "cpp": "C++", "fortran": "Fortran", "julia": "Julia", "python": "Python"}
+LANGUAGES = {"command": "the command", "c": "C", "cpp": "C++", "fortran": "Fortran", "julia": "Julia", "python": "Python"}
 
 
 def missing(root):

@@ -58,12 +58,12 @@ with pnpbs.Context() as context, pnpbs.Shapes('triangle.geojson', projection='no
 assert area == 0.5, area"
 fi
 
-for example in smallest laplace_ring; do
+for example in smallest laplace_ring adaptive_fem adaptive_rbf_fd; do
   for ranks in 0 1 2 4; do
     script=$source/examples/python/$example/$example.py
     if [ "$ranks" = 0 ]; then
       "$fresh" "$script" > output
-    elif [ -n "$mpiexec" ] && [ $example != smallest ]; then
+    elif [ -n "$mpiexec" ] && [ $example = laplace_ring ]; then
       "$mpiexec" --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 -np "$ranks" \
         "$fresh" "$script" --mpi < /dev/null > output
     else
