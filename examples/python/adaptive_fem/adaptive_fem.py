@@ -20,8 +20,7 @@ def exact_gradient(x):
 
 
 def solve(x, triangles, fixed):
-    """Returns the gradients of the solution on the triangles, and their areas. The slopes are those
-    of the basis functions."""
+    """Returns the gradients of the solution on the triangles, and their areas."""
     a, b, c = (x[triangles[:, k]] for k in range(3))
     areas = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
     slopes = np.stack([c - b, a - c, b - a], axis=1)[:, :, ::-1] * (-1, 1) / (2 * areas)[:, None, None]
@@ -56,4 +55,5 @@ with pnpbs.Context() as context:
         factor = np.clip((0.5 * np.mean(estimate**0.5) / there)**0.5, 0.5, 1.5)
         placement.set_spacing(factor * nodes.spacing)
 
-print(f"order in the number of nodes: {-np.polyfit(*np.log(history).T, 1)[0]:.2f}, expected at least 0.5")
+n, errors = np.log(history).T
+print(f"order in the number of nodes: {-np.polyfit(n, errors, 1)[0]:.2f}, expected at least 0.5")

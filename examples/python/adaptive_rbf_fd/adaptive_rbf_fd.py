@@ -48,12 +48,12 @@ def solve(placement):
 with pnpbs.Context(adjacency_radius=3) as context:      # lists of about 30 nodes
     disc = pnpbs.Domain(context).add_arc((0, 0), 1)
     placement = pnpbs.Placement(disc, growth_limit=0.2).set_spacing(0.05)
-    for cycle in range(5):
-        if cycle > 0:                                   # the estimate decreases as d^3 or faster
-            factor = np.clip((0.003 / np.maximum(estimate, 1e-9))**(1 / 3), 0.5, 2)
-            placement.set_spacing(np.minimum(factor * placement.nodes().spacing, 0.1))
-        placement.run()
-        error, estimate = solve(placement)
+    placement.run()
+    for cycle in range(4):
+        # The estimate decreases as d^3 or faster.
+        factor = np.clip((0.003 / np.maximum(solve(placement)[1], 1e-9))**(1 / 3), 0.5, 2)
+        placement.set_spacing(np.minimum(factor * placement.nodes().spacing, 0.1)).run()
+        error = solve(placement)[0]
         print(f"{placement.node_count} nodes, largest error {error:.4f}")
     (constant := pnpbs.Placement(disc, wanted_nodes=placement.node_count).set_spacing(1)).run()
     print(f"the error on as many nodes of constant d over that: {solve(constant)[0] / error:.1f}, expected at least 8")
