@@ -123,7 +123,7 @@ MessageText text_of(const Triangulation& surface, const Pair& pair) {
 
 }  // namespace
 
-void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
+void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree, bool filled) {
   constexpr std::size_t kListed = 5;
   const auto count = static_cast<std::int32_t>(surface.triangles.size());
   std::int64_t pairs = 0;
@@ -148,11 +148,13 @@ void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree) {
   const std::int64_t others = pairs - std::ssize(first);
   if (others > 0) message += "\nand " + std::to_string(others) + " more such pairs";
   if (broken) throw BrokenSurface(message);
-  // A repair leaves inner surfaces as they are.
-  reject_domain(
-      message +
-      "\nInner surfaces may meet other triangles only in common edges and vertices: divide "
-      "the triangles along the line in which they meet");
+  // A repair leaves inner surfaces as they are, and surfaces alone are not split.
+  reject_domain(message +
+                (filled ? "\nInner surfaces may meet other triangles only in common edges and "
+                          "vertices: pnpbs_domain_set_fragment (in the command --fragment) divides "
+                          "the triangles along the line in which they meet"
+                        : "\nSurfaces alone may meet only in common edges and vertices: divide the "
+                          "triangles along the line in which they meet"));
 }
 
 }  // namespace pnpbs

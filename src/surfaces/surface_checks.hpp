@@ -26,8 +26,8 @@ void warn_of_touching_vertices(const Triangulation& surface, const SurfaceEdges&
 BoxTree<3> tree_of(const Triangulation& surface);
 
 // Throws Error(ErrorKind::domain) if triangles meet other than in common vertices and edges. The
-// message lists the first pairs with their locations, and their number. Takes O(n log n) time if
-// triangles have few neighbours.
-void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree);
+// message lists the first pairs with their locations, and their number. `filled` is false for
+// surfaces alone. Takes O(n log n) time if triangles have few neighbours.
+void reject_crossings(const Triangulation& surface, const BoxTree<3>& tree, bool filled = true);
 
 }  // namespace pnpbs

@@ -146,6 +146,9 @@ class Results(Case):
                 read = meshio.read(pathlib.Path(folder) / name)
                 np.testing.assert_allclose(read.points[:, :2], self.placement.mesh().coordinates)
                 self.assertEqual(len(read.cells_dict["triangle"]), len(self.placement.triangles()))
+            for names, order in ((["c.inp"], 2), (["c.vtu", "c.inp"], 1)):
+                with self.assertRaisesRegex(ValueError, "c.inp' would be written by meshio, which takes one"):
+                    self.placement.write(*(pathlib.Path(folder) / name for name in names), order=order)
             with self.assertRaisesRegex(ValueError, "would be a picture: draw it with `plot`"):
                 self.placement.write(pathlib.Path(folder) / "a.png")
 

@@ -160,7 +160,14 @@ CASES = [
     Case("inner surfaces that cross the boundary", {"a.obj": solids("obj")},
          "--domain a.obj --spacing 0.3 --inner shaft --inner bolt", code=BAD_INPUT,
          says=(" of surface 0 'housing' and triangle ", "\nInner surfaces may meet other triangles only "
-               "in common edges and vertices"), omits=("--repair",)),
+               "in common edges and vertices: pnpbs_domain_set_fragment (in the command --fragment) divides"),
+         omits=("--repair",)),
+    Case("the same with the advice", {"a.obj": solids("obj")},
+         "--domain a.obj --spacing 0.3 --inner shaft --inner bolt --fragment", omits=("cross",)),
+    Case("surfaces alone that cross", {"a.obj": solids("obj")},
+         "--domain a.obj --spacing 0.3 --surfaces-only", code=BAD_INPUT,
+         says=("\nSurfaces alone may meet only in common edges and vertices: divide the triangles",),
+         omits=("--repair", "--fragment", "Inner")),
 
     # ------------------------------------------------ regions
     *[Case(f"a block as large as {times} d in a box",

@@ -598,10 +598,14 @@ class Results(PlacementHandle):
         formats = {row.name: row for row in format_table()}
         of_paths = [formats.get(_extension(path)) for path in paths]
         _refuse_pictures(paths)
-        if order == 1 and len(paths) == 1 and of_paths[0] is None and _meshio_writes(paths[0]):
-            return self._write_by_meshio(paths[0])
         if order not in (1, 2):
             raise ValueError(f"order is {order!r}; 1 or 2 was expected")
+        by_meshio = [path for path, row in zip(paths, of_paths) if row is None and _meshio_writes(path)]
+        if by_meshio and (order == 2 or len(paths) > 1):
+            raise ValueError(f"{os.fsdecode(by_meshio[0])!r} would be written by meshio, which takes one "
+                             "file of a call, and elements of first order")
+        if by_meshio:
+            return self._write_by_meshio(paths[0])
         if order == 2 and elements is False:
             elements = True
         wanted = np.full(len(paths), elements, np.int32)

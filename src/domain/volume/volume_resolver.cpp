@@ -185,7 +185,7 @@ class Resolver {
     warn_of_touching_vertices(surface_, edges, result_.warnings);
     orient(edges);
     tree_ = tree_of(surface_);
-    reject_crossings(surface_, tree_);
+    reject_crossings(surface_, tree_, filled_);
     if (!splits()) segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
     check_segments(segments_, surface_, tree_, kSamePoint * size_);
     regions_.emplace(surface_, edges, tree_);

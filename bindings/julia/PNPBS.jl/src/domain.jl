@@ -108,7 +108,8 @@ function Base.ndims(domain::Domain)
     return Int(dim[])
 end
 
-Base.show(io::IO, domain::Domain) = print(io, "PNPBS.Domain(", isopen(domain) ? "" : "closed", ")")
+Base.show(io::IO, domain::Domain) =
+    print(io, "PNPBS.Domain(", isopen(domain) ? "$(ndims(domain))D" : "closed", ")")
 
 function role_number(role::Symbol)
     role === :boundary && return LibPNPBS.PNPBS_BOUNDARY

@@ -37,6 +37,7 @@ placed_in(domain, spacing) =
 @testset "shapes in space" begin
     Context() do context
         domain = Domain(context; dim = 3)
+        @test sprint(show, domain) == "PNPBS.Domain(3D)"
         @test ndims(domain) == 3 && ndims(Domain(context)) == 2
         @test add_box!(domain, (-1, 0, 2), (1, 3, 6); tag = 7) === domain
         @test measure(domain) == 24
