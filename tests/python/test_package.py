@@ -544,6 +544,10 @@ class Domains(Case):
             for wrong in (("side",), (1,)):
                 with self.assertRaises(ValueError):
                     getattr(domain, f"add_{name}")(*arguments, 1, *wrong)
+        for role, tag in (("inner", 1), ("boundary", 2)):  # only a solid has a region tag
+            domain = pnpbs.Domain(self.context, dim=3).add_box((0, 0, 0), (1, 1, 1))
+            domain.add_ball((0.5, 0.5, 0.5), 0.25, role=role).set_fragment()
+            self.assertEqual(domain.regions_at([(0.5, 0.5, 0.5)]), tag)
         domain = pnpbs.Domain(self.context, dim=3)
         self.assert_status(Status.ERROR_ARGUMENT, domain.add_ball, (0, 0, 0), -1, role="inner")
         self.assert_status(Status.ERROR_ARGUMENT, domain.add_box, (0, 0, 0), (1, 1, 0), role="inner")

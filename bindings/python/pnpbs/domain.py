@@ -472,9 +472,10 @@ class Domain(Handle):
         In space each box, ball, cylinder and level set is a solid, and so is each closed group of
         an added surface, which are its triangles with one tag: a solid contains the points around
         which it winds, so triangles of a cavity are oriented into it. The other triangles of a
-        surface enclose a further solid. Without this call, surfaces that touch are accepted if no
-        solids overlap and each surface ends on others, as for stacked boxes and for a sheet from
-        side to side of a box. Gaps up to the length of `set_snap` are closed.
+        surface enclose a further solid. Surfaces with the role "inner" are no solids. Without this
+        call, surfaces that touch are accepted if no solids overlap and each surface ends on others,
+        as for stacked boxes and for a sheet from side to side of a box. Gaps up to the length of
+        `set_snap` are closed.
 
         In the plane each closed boundary curve is a solid, and so are boundary curves that are
         joined at their ends to a closed one. It is a cavity if the solid before it encloses it and
