@@ -695,8 +695,8 @@ class Arranger {
       for (std::int32_t& v : piece.vertices) v = welded[index(vertex[index(v)])];
     for (ArrangedSegment& segment : curves_)
       for (std::int32_t& v : segment.ends) v = welded[index(vertex[index(v)])];
-    unite_equal_segments();
     remove_thin(pieces);
+    unite_equal_segments();
     unite_equal(pieces, parents_);
   }
 
@@ -710,7 +710,7 @@ class Arranger {
     });
   }
 
-  void remove_thin(std::vector<Piece>& pieces) const {
+  void remove_thin(std::vector<Piece>& pieces) {
     // The tags are the indices of the pieces.
     Triangulation all{surface_.sources, {}, positions_, {}, {}};
     all.tag_names.resize(surface_.sources.size());
@@ -719,7 +719,12 @@ class Arranger {
       all.triangles.push_back(
           {pieces[p].vertices, static_cast<std::int32_t>(p), parent.source, parent.number, false});
     }
-    if (const auto thin = remove_thin_pieces(all, tolerance_)) reject_near(all.corners(*thin));
+    std::vector<Segment> merged;
+    if (const auto thin = remove_thin_pieces(all, tolerance_, merged))
+      reject_near(all.corners(*thin));
+    for (const auto& [goes, stays] : merged)
+      for (ArrangedSegment& segment : curves_)
+        std::replace(segment.ends.begin(), segment.ends.end(), goes, stays);
     std::vector<Piece> kept;
     for (const SurfaceTriangle& triangle : all.triangles) {
       Piece piece = pieces[index(triangle.tag)];

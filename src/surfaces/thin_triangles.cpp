@@ -58,25 +58,37 @@ bool is_thin(const FacetCorners<3>& corners, double tolerance, Thin thin) {
   return height <= kRounding * tolerance && height <= kFlatHeight * shorter;
 }
 
-constexpr std::size_t kMaxCuts = 10;  // most cuts per triangle, far more than needed
+// Number of cuts after which short edges are collapsed, far more than needed elsewhere.
+constexpr std::size_t kMaxCuts = 10;  // per thin triangle
+constexpr std::size_t kFewThin = 1000;
+// The length below which edges are collapsed grows by this factor after that many cuts, up to the
+// largest length. [tolerance]
+constexpr double kCollapseStep = 4;
+constexpr double kLongestCollapsed = 1024;
 
 class Thinner {
  public:
   Thinner(Triangulation& surface, double tolerance, Thin thin)
       : surface_(surface), triangles_(surface.triangles), tolerance_(tolerance), removes_(thin) {}
 
-  // Returns a triangle that is still too thin if the triangles become too many.
+  // Returns a triangle that is still too thin if the cuts do not end. At a short edge between two
+  // long ones, cutting along one diagonal of the four vertices can create the other one again and
+  // again. Then such edges are collapsed, the shortest first.
   std::optional<std::int32_t> run() {
     const std::size_t given = triangles_.size();
     for (std::size_t t = 0; t < given; ++t) look_at(static_cast<std::int32_t>(t));
     if (removed_ == 0 && thin_.empty()) return std::nullopt;
     list_triangles_at_vertices();
     // The longest come first, because cutting a triangle along its long edge shortens its pieces.
-    for (std::size_t cuts = 0; !thin_.empty(); ++cuts) {
+    const std::size_t most_cuts = kMaxCuts * std::max(thin_.size(), kFewThin);
+    for (std::size_t cuts = 1; !thin_.empty(); ++cuts) {
       const std::int32_t t = std::get<1>(thin_.top());
       thin_.pop();
-      if (cuts > kMaxCuts * given) return t;
-      if (!gone_[t]) cut_out(t);
+      if (!gone_[t] && !(collapsed_below_ > 0 && is_repaired_by_collapse(t))) cut_out(t);
+      if (cuts % most_cuts != 0) continue;
+      if (removes_ == Thin::flat_by_rounding || collapsed_below_ >= kLongestCollapsed * tolerance_)
+        return t;
+      collapsed_below_ = kCollapseStep * std::max(collapsed_below_, tolerance_);
     }
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -86,6 +98,8 @@ class Thinner {
   }
 
   std::int64_t removed() const { return removed_; }
+  // Returns the vertices that were merged, each with the one that stays, in the order of merging.
+  const std::vector<std::array<std::int32_t, 2>>& merged() const { return merged_; }
   // Returns the name and the location of the first removed triangle.
   const MessageText& first_removed() const { return first_name_; }
 
@@ -140,13 +154,45 @@ class Thinner {
     }
   }
 
+  // Merges the ends of the shortest edge, the higher vertex into the lower, if it is short enough.
+  // Returns false if it is not. Returns true also if the triangle is no longer thin because a
+  // vertex was merged before.
+  bool is_repaired_by_collapse(std::int32_t t) {
+    if (!is_thin(surface_.corners(t), tolerance_, removes_)) return true;
+    const std::array<std::int32_t, 3> vertices = triangles_[t].vertices;
+    std::int32_t stays = -1, goes = -1;
+    double shortest = collapsed_below_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(vertices[k], vertices[(k + 1) % 3]);
+      const double edge = distance<3>(surface_.vertices[low], surface_.vertices[high]);
+      if (edge > shortest) continue;
+      shortest = edge;
+      stays = low;
+      goes = high;
+    }
+    if (goes < 0) return false;
+    const std::vector<std::int32_t> moved = std::move(at_vertex_[goes]);
+    at_vertex_[goes].clear();
+    for (const std::int32_t other : moved) {
+      if (gone_[other]) continue;
+      std::replace(triangles_[other].vertices.begin(), triangles_[other].vertices.end(), goes,
+                   stays);
+      look_at(other);
+      if (!gone_[other]) at_vertex_[stays].push_back(other);
+    }
+    merged_.push_back({goes, stays});
+    return true;
+  }
+
   Triangulation& surface_;
   std::vector<SurfaceTriangle>& triangles_;
   double tolerance_;
   Thin removes_;
+  double collapsed_below_ = 0;
   std::vector<char> gone_;
   std::priority_queue<std::pair<double, std::int32_t>> thin_;
   std::vector<std::vector<std::int32_t>> at_vertex_;
+  std::vector<std::array<std::int32_t, 2>> merged_;
   std::int64_t removed_ = 0;
   std::pair<std::int32_t, std::int32_t> first_{};
   MessageText first_name_;
@@ -167,8 +213,12 @@ void remove_thin_triangles(Triangulation& surface, double tolerance,
                         count);
 }
 
-std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance) {
-  return Thinner(surface, tolerance, Thin::within_tolerance).run();
+std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance,
+                                               std::vector<std::array<std::int32_t, 2>>& merged) {
+  Thinner thinner(surface, tolerance, Thin::within_tolerance);
+  const std::optional<std::int32_t> thin = thinner.run();
+  merged = thinner.merged();
+  return thin;
 }
 
 void remove_duplicate_triangles(Triangulation& surface, std::vector<Warning>& warnings) {

@@ -2,6 +2,7 @@
 // Removes degenerate and duplicate triangles while surfaces stay closed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,9 +20,12 @@ namespace pnpbs {
 void remove_thin_triangles(Triangulation& surface, double tolerance,
                            std::vector<Warning>& warnings);
 
-// The same for pieces of triangles, without a warning. Flat pieces with a larger height stay.
-// Returns a triangle that is still too thin if the pieces become too many.
-std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance);
+// The same for pieces of triangles, without a warning. Flat pieces with a larger height stay. Where
+// this does not end, short edges are collapsed: `merged` lists the vertices that were merged, each
+// with the one that stays, in the order of merging. Returns a triangle that is still too thin if
+// that does not suffice.
+std::optional<std::int32_t> remove_thin_pieces(Triangulation& surface, double tolerance,
+                                               std::vector<std::array<std::int32_t, 2>>& merged);
 
 // Removes all but the first of the triangles of one source that have the same corners, with a
 // warning. Throws Error(ErrorKind::domain) if they belong to two sources.

@@ -761,6 +761,42 @@ START_TEST(the_order_of_the_triangles_does_not_matter) {
 }
 END_TEST
 
+// Two long triangles over a bent line, with a short edge at the bend, and a vertex below them. Each
+// diagonal of the upper four vertices makes one thin triangle.
+START_TEST(a_short_edge_between_long_ones_is_collapsed) {
+  constexpr double kBend = 0.004, kShort = 1e-7, kTolerance = 1e-9;
+  for (const bool other_diagonal : {false, true}) {
+    Triangulation surface{{"surface 0"},
+                          {{}},
+                          {{-1, -kBend, 0},
+                           {-kShort / 2, 0, 0},
+                           {kShort / 2, 0, 0},
+                           {1, -kBend, 0},
+                           {0, -1, -1},
+                           {0, -1, 1}},
+                          {},
+                          {}};
+    surface.given.assign(surface.vertices.size(), {-1, -1});
+    std::vector<std::array<std::int32_t, 3>> corners{{0, 4, 1}, {1, 4, 2}, {2, 4, 3},
+                                                     {0, 5, 4}, {3, 4, 5}, {0, 3, 5}};
+    if (other_diagonal)
+      corners.insert(corners.end(), {{0, 1, 3}, {1, 2, 3}});
+    else
+      corners.insert(corners.end(), {{0, 1, 2}, {0, 2, 3}});
+    for (const auto& triangle : corners)
+      surface.triangles.push_back(
+          {triangle, 1, 0, static_cast<std::int32_t>(surface.triangles.size()), false});
+    std::vector<std::array<std::int32_t, 2>> merged;
+    ck_assert(!pnpbs::remove_thin_pieces(surface, kTolerance, merged));
+    ck_assert(merged == (std::vector<std::array<std::int32_t, 2>>{{2, 1}}));
+    ck_assert_int_eq(surface.triangles.size(), 6);
+    const pnpbs::SurfaceEdges edges(surface);
+    ck_assert_int_eq(edges.count(), 9);
+    for (std::size_t e = 0; e < edges.count(); ++e) ck_assert_int_eq(edges.sides(e).size(), 2);
+  }
+}
+END_TEST
+
 TEST_SUITE(test_arrangement) {
   return run_suite("arrangement", {quotients_are_rounded_to_the_nearest_double,
                                    boxes_on_each_other_share_one_face,
@@ -785,5 +821,6 @@ TEST_SUITE(test_arrangement) {
                                    regions_of_crossing_boxes_are_those_of_their_bounds,
                                    regions_of_crossing_balls_are_those_of_their_triangles,
                                    a_soup_of_triangles_is_split,
+                                   a_short_edge_between_long_ones_is_collapsed,
                                    the_order_of_the_triangles_does_not_matter});
 }
