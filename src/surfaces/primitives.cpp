@@ -90,10 +90,22 @@ SurfaceSource ball_surface(const Point<3>& centre, double radius, std::int32_t t
   UnitSphere sphere = icosahedron();
   for (int times = 0; times < kCuts; ++times) cut(sphere);
   SurfaceSource ball;
-  ball.approximates = true;
+  ball.approximates = ball.is_ball = true;
   for (const Point<3>& x : sphere.points) ball.vertices.push_back(shifted(centre, radius, x));
   ball.triangles = std::move(sphere.triangles);
   ball.tags.assign(ball.triangles.size(), tag);
+  return ball;
+}
+
+// The four triangles that divide one are consecutive, and the vertices of coarser triangles come
+// first.
+SurfaceSource coarser_ball(SurfaceSource ball) {
+  std::vector<Corners> coarser;
+  for (std::size_t t = 0; t + 3 < ball.triangles.size(); t += 4)
+    coarser.push_back({ball.triangles[t][0], ball.triangles[t + 1][1], ball.triangles[t + 2][2]});
+  ball.triangles = std::move(coarser);
+  ball.tags.resize(ball.triangles.size());
+  ball.vertices.resize(ball.triangles.size() / 2 + 2);
   return ball;
 }
 

@@ -18,6 +18,10 @@ SurfaceSource box_surface(const Point<3>& low, const Point<3>& high,
 // and triangles within 1e-4 of the radius of it.
 SurfaceSource ball_surface(const Point<3>& centre, double radius, std::int32_t tag);
 
+// Returns a ball with a quarter of the triangles, which lie within 3e-4 of the radius of the
+// sphere.
+SurfaceSource coarser_ball(SurfaceSource ball);
+
 // Returns a cylinder of 256 strips between its end circles, also within 1e-4 of the radius.
 SurfaceSource cylinder_surface(const Point<3>& begin, const Point<3>& end, double radius,
                                std::int32_t tag);

@@ -54,6 +54,7 @@ struct SurfaceSource {
   TagNameList tag_names;                      // for messages
   std::shared_ptr<const LevelSet> level_set;  // the level set of this surface, or null
   bool approximates = false;  // true for curved surfaces that were not given as triangles
+  bool is_ball = false;       // true for those of ball_surface()
   double feature_angle = kFeatureAngle;  // [degrees]
   std::vector<SurfaceCrease> creases;    // creases of a level set
   std::vector<Warning> warnings;

@@ -426,12 +426,13 @@ std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_touching() const {
   }
 }
 
+// Balls become coarser, because splitting takes much longer than a check of each ball.
 std::unique_ptr<ResolvedVolume> VolumeDomain::resolve_fragments() const {
-  GivenVolume given = this->given();
-  given.contacts = GivenVolume::Contacts::any;
-  given.overlap = *fragment_;
-  given.gap = snap_;
-  return resolve_volume(given);
+  std::vector<SurfaceSource> surfaces = surfaces_;
+  for (SurfaceSource& surface : surfaces)
+    if (surface.is_ball) surface = coarser_ball(std::move(surface));
+  return resolve_volume({surfaces, roles_, polylines_, region_points_, given_nodes_, filled_,
+                         GivenVolume::Contacts::any, *fragment_, snap_});
 }
 
 bool VolumeDomain::has_several_groups() const {
