@@ -181,34 +181,44 @@ void find_meetings_of_curves(const std::vector<Point<3>>& positions,
   }
 }
 
-// Finds where new pieces meet others, and where curves meet any piece.
+// Finds where new pieces meet others, and where curves meet any piece. The tree has the new pieces
+// only, which are few after the first round.
 Meetings find_meetings(const std::vector<Point<3>>& positions, const std::vector<Piece>& pieces,
                        const std::vector<ArrangedSegment>& curves, double reach) {
-  std::vector<Box<3>> boxes;
-  boxes.reserve(pieces.size());
-  for (const Piece& piece : pieces) {
+  const auto box_of = [&](const Piece& piece) {
     Box<3> box = empty_box<3>();
     for (const std::int32_t v : piece.vertices) include(box, positions[index(v)]);
-    boxes.push_back(widened(box, reach / 2));
-  }
-  const BoxTree<3> tree(boxes);
+    return widened(box, reach / 2);
+  };
+  const auto count = static_cast<std::int32_t>(pieces.size());
+  std::vector<std::int32_t> in_tree;
+  std::vector<Box<3>> boxes;
+  for (std::int32_t p = 0; p < count; ++p)
+    if (pieces[index(p)].is_new) {
+      in_tree.push_back(p);
+      boxes.push_back(box_of(pieces[index(p)]));
+    }
+  const BoxTree<3> tree(std::move(boxes));
   Meetings meetings;
   NearContactSearch search(positions, reach);
-  const auto count = static_cast<std::int32_t>(pieces.size());
   for (std::int32_t p = 0; p < count; ++p) {
     const Piece& piece = pieces[index(p)];
-    if (!piece.is_new) continue;
-    const FacetCorners<3> corners = corners_of(positions, piece.vertices);
-    tree.for_meeting(boxes[index(p)], [&](std::int32_t q) {
+    tree.for_meeting(box_of(piece), [&](std::int32_t k) {
+      const std::int32_t q = in_tree[index(k)];
       const Piece& other = pieces[index(q)];
-      if (q == p || (other.is_new && q < p)) return;
+      if (q == p || (piece.is_new && q < p)) return;
       if (!search.add_contacts(p, piece.vertices, q, other.vertices)) return;
-      if (triangles_meet(corners, piece.vertices, corners_of(positions, other.vertices),
-                         other.vertices))
+      if (triangles_meet(corners_of(positions, piece.vertices), piece.vertices,
+                         corners_of(positions, other.vertices), other.vertices))
         meetings.exact.push_back({std::min(p, q), std::max(p, q)});
     });
   }
-  find_meetings_of_curves(positions, pieces, tree, curves, reach, search, meetings.through);
+  if (!curves.empty()) {
+    std::vector<Box<3>> of_all;
+    for (const Piece& piece : pieces) of_all.push_back(box_of(piece));
+    find_meetings_of_curves(positions, pieces, BoxTree<3>(std::move(of_all)), curves, reach, search,
+                            meetings.through);
+  }
   meetings.near = std::move(search.contacts());
   sort_unique(meetings.near.in_plane);
   sort_unique(meetings.near.on_edges);

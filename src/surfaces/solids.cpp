@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -59,7 +58,8 @@ std::string group_name_of(const Triangulation& given, const SurfaceTriangle& tri
 
 Solids::Solids(const Triangulation& given) {
   std::vector<std::vector<std::int32_t>> of_source(given.sources.size());
-  std::set<std::tuple<std::int32_t, std::int32_t, std::array<std::int32_t, 3>>> met;
+  std::vector<std::tuple<std::array<std::int32_t, 3>, std::int32_t, std::int32_t, std::int32_t>>
+      candidates;  // corners, source and tag, and the index of the triangle
   of_.resize(given.sources.size());
   for (std::size_t t = 0; t < given.triangles.size(); ++t) {
     const SurfaceTriangle& triangle = given.triangles[t];
@@ -68,9 +68,16 @@ Solids::Solids(const Triangulation& given) {
     if (triangle.inner && !triangle.by_place && !triangle.dividing) continue;
     std::array<std::int32_t, 3> corners = triangle.vertices;
     std::sort(corners.begin(), corners.end());
-    if (met.emplace(triangle.source, triangle.tag, corners).second)
-      of_source[index(triangle.source)].push_back(static_cast<std::int32_t>(t));
+    candidates.emplace_back(corners, triangle.source, triangle.tag, static_cast<std::int32_t>(t));
   }
+  std::sort(candidates.begin(), candidates.end());
+  const auto group_of = [](const auto& it) {
+    return std::tie(std::get<0>(it), std::get<1>(it), std::get<2>(it));
+  };
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (i == 0 || group_of(candidates[i]) != group_of(candidates[i - 1]))
+      of_source[index(std::get<1>(candidates[i]))].push_back(std::get<3>(candidates[i]));
+  for (std::vector<std::int32_t>& triangles : of_source) std::ranges::sort(triangles);
   for (const std::vector<std::int32_t>& triangles : of_source) add_source(given, triangles);
 }
 

@@ -184,9 +184,11 @@ class Resolver {
     require_closed_boundary(surface_, edges);
     warn_of_touching_vertices(surface_, edges, result_.warnings);
     orient(edges);
-    tree_ = tree_of(surface_);
-    reject_crossings(surface_, tree_, filled_);
-    if (!splits()) segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
+    if (!splits()) {
+      tree_ = tree_of(surface_);
+      reject_crossings(surface_, tree_, filled_);
+      segments_ = make_segments(polylines_, curve_vertices_, surface_.vertices);
+    }
     check_segments(segments_, surface_, tree_, kSamePoint * size_);
     regions_.emplace(surface_, edges, tree_);
     if (splits()) {
@@ -306,9 +308,9 @@ class Resolver {
       parts_.push_back({t, surface_.triangles[t]});
     warn_of_tolerance(summary);
     const SurfaceEdges edges(surface_);
-    const BoxTree<3> tree = tree_of(surface_);
-    if (summary.rounds == 0) reject_crossings(surface_, tree);  // They may have been left alone.
-    const SurfaceRegions regions(surface_, edges, tree);
+    tree_ = tree_of(surface_);
+    if (summary.rounds == 0) reject_crossings(surface_, tree_);  // They may have been left alone.
+    const SurfaceRegions regions(surface_, edges, tree_);
     if (contacts_ == Contacts::touching) require_attached(edges);
     find_solids_around(regions);
     for (std::int32_t t = 0; t < triangle_count(); ++t) {
