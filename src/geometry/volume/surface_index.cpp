@@ -65,22 +65,35 @@ SurfaceIndex::Slab SurfaceIndex::slab_around(std::span<const std::int32_t> facet
   return slab;
 }
 
-NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
+// Returns the nearest point of the facets closer to x than `reach`. May skip facets that are
+// farther than limit(gap), where `gap` is the distance of the nearest point found so far.
+template <class Limit>
+NearestPoint<3> SurfaceIndex::nearest_within(const Point<3>& x, double reach,
+                                             const Limit& limit) const {
   constexpr double kRounding = 1 + 1e-12;  // Facets at the same distance must not be skipped.
   constexpr double kSurely = 1 + 1e-8;
   NearestPoint<3> best{reach};
+  const auto surely = [&] { return kSurely * limit(best.gap) + sides_.room(); };
   boxes_.for_near(
-      x, [&] { return kRounding * best.gap * best.gap; },
-      [&](std::size_t cell) {
-        return !(slabs_[cell].gap_to(x) > kSurely * best.gap + sides_.room());
-      },
+      x, [&] { return kRounding * limit(best.gap) * limit(best.gap); },
+      [&](std::size_t cell) { return !(slabs_[cell].gap_to(x) > surely()); },
       [&](std::int32_t f) {
-        if (plane_is_beyond(sides_.corners(f), x, kSurely * best.gap + sides_.room())) return;
+        if (plane_is_beyond(sides_.corners(f), x, surely())) return;
         const Point<3> q = nearest_on(sides_.corners(f), x);
         const double gap = distance<3>(q, x);
         if (gap < best.gap || (gap == best.gap && f < best.facet)) best = {gap, f, q};
       });
   return best;
+}
+
+NearestPoint<3> SurfaceIndex::nearest(const Point<3>& x, double reach) const {
+  return nearest_within(x, reach, [](double gap) { return gap; });
+}
+
+double SurfaceIndex::least_clearance(const Point<3>& x, double exact, double reach) const {
+  constexpr double kShare = 0.8;
+  const auto limit = [exact](double gap) { return std::min(gap, std::max(exact, kShare * gap)); };
+  return std::min(reach, limit(nearest_within(x, reach / kShare, limit).gap));
 }
 
 namespace {

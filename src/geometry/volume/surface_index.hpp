@@ -28,6 +28,10 @@ class SurfaceIndex {
   NearestPoint<3> nearest(const Point<3>& x, double reach) const;
   // Returns the gap of nearest().
   double clearance(const Point<3>& x, double reach) const { return nearest(x, reach).gap; }
+  // Returns clearance(x, reach) if it is at most `exact`. Otherwise returns a lower bound of it,
+  // which is larger than four fifths of it and at least `exact`. In the middle of a ball, where all
+  // facets are about as near, this takes much less time.
+  double least_clearance(const Point<3>& x, double exact, double reach) const;
 
   // The first facet other than `from` that the segment from x to x + way crosses.
   struct Hit {
@@ -46,6 +50,8 @@ class SurfaceIndex {
     double gap_to(const Point<3>& x) const;
   };
   Slab slab_around(std::span<const std::int32_t> facets) const;
+  template <class Limit>
+  NearestPoint<3> nearest_within(const Point<3>& x, double reach, const Limit& limit) const;
 
   FacetIndex<3> sides_;      // Cells with few facets each, whatever d is.
   BoxTree<3> boxes_;         // Boxes of the facets.

@@ -74,7 +74,8 @@ class NearBoundary<3> {
   bool leaf_is_clear(std::int32_t leaf) const {
     return near_.clear[static_cast<std::size_t>(leaf)] != 0;
   }
-  // Returns whether a facet is within `reach` of node i, which must have a list.
+  // Returns whether a facet is within `reach` of node i, which must have a list. If `reach` exceeds
+  // method::kVolumeClearance, facets up to a quarter farther away may count.
   bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
   // Returns whether the boundary hid no node from node i in the last rebuild of the lists.
   bool sees_all(std::int64_t i) const { return hidden_(i) == 0; }
@@ -108,7 +109,8 @@ class NearBoundary<3> {
   NearLeaves near_;
   Field<3> at_;
   // Distance of a free node from the nearest facet, and of a surface node from the nearest feature
-  // edge; kFarAway if it exceeds the radius, and 0, a lower bound, if the node has no list.
+  // edge; kFarAway if it exceeds the radius. A lower bound where a free node has more than its
+  // clearance, and 0 if the node has no list.
   NodeArray<double> gap_;
   NodeArray<char> hidden_;  // nonzero: the boundary hides a node from this one
 };
