@@ -28,6 +28,14 @@ bool is_inner(const BoundaryEdge& edge) {
   return edge.left_inside && edge.right_inside && edge.begin != edge.end;
 }
 
+// Returns the ids of nodes in ascending order.
+template <std::size_t n, class IdOf>
+std::array<std::int64_t, n> ascending(std::array<std::int64_t, n> nodes, const IdOf& id_of) {
+  for (std::int64_t& node : nodes) node = id_of(node);
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
 // Calls visit(places, tag) for the facets of inner curves or surfaces with these tags, each once
 // over all ranks.
 template <class Visit>
@@ -157,10 +165,7 @@ class SectorFinder {
 
   template <std::size_t n>
   std::array<std::int64_t, n> sorted_ids(const std::array<std::int64_t, n>& nodes) const {
-    std::array<std::int64_t, n> ids;
-    std::ranges::transform(nodes, ids.begin(), [this](std::int64_t i) { return id(i); });
-    std::ranges::sort(ids);
-    return ids;
+    return ascending(nodes, [this](std::int64_t i) { return id(i); });
   }
 
   // Returns whether an odd number of swaps puts the ids in order.
@@ -425,10 +430,7 @@ class CrackMaker {
 
   template <std::size_t n>
   std::array<std::int64_t, n> sorted_ids(const std::array<std::int64_t, n>& places) const {
-    std::array<std::int64_t, n> ids;
-    std::ranges::transform(places, ids.begin(), [this](std::int64_t place) { return id(place); });
-    std::ranges::sort(ids);
-    return ids;
+    return ascending(places, [this](std::int64_t place) { return id(place); });
   }
 
   template <std::size_t n>

@@ -105,7 +105,9 @@ void add_nodes(const Results<Dim>& results, std::vector<NodeTag> nodes,
     std::ranges::sort(nodes);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  for (const NodeTag& node : nodes) ++shares[node.tag].nodes;
+  collective_try(comm, [&] {
+    for (const NodeTag& node : nodes) ++shares[node.tag].nodes;
+  });
 }
 
 }  // namespace
@@ -120,19 +122,24 @@ std::vector<RegionFigures> region_figures(Results<Dim>& results) {
   collective_try(comm, [&] { nodes = add_elements(results, shares); });
   add_nodes(results, std::move(nodes), shares);
   std::vector<std::int32_t> tags;
-  for (const auto& [tag, share] : shares) tags.push_back(tag);
+  collective_try(comm, [&] {
+    for (const auto& [tag, share] : shares) tags.push_back(tag);
+  });
   tags = of_all_ranks(comm, tags);
   std::ranges::sort(tags);
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
-  std::vector<std::int64_t> rows(kRow * tags.size());
-  auto next = rows.begin();
-  for (const std::int32_t tag : tags) {
-    Share& share = shares[tag];
-    share.measure.carry();
-    *next++ = share.nodes;
-    *next++ = share.elements;
-    next = std::ranges::copy(share.measure.entries(), next).out;
-  }
+  std::vector<std::int64_t> rows;
+  collective_try(comm, [&] {
+    rows.resize(kRow * tags.size());
+    auto next = rows.begin();
+    for (const std::int32_t tag : tags) {
+      Share& share = shares[tag];
+      share.measure.carry();
+      *next++ = share.nodes;
+      *next++ = share.elements;
+      next = std::ranges::copy(share.measure.entries(), next).out;
+    }
+  });
   comm.allreduce_sum(rows);
   std::vector<RegionFigures> figures;
   for (std::size_t k = 0; k < tags.size(); ++k) {
