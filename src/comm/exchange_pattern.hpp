@@ -49,7 +49,7 @@ void fill_ghosts(const Communicator& comm, const ExchangePattern& pattern,
                                            " sent values of other nodes than the ghosts of this "
                                            "rank");
     std::int64_t next = pattern.receive_offsets[k];
-    for_records<Value>({message.bytes}, [&](const Value& value) {
+    for_records<Value>(message.bytes, [&](const Value& value) {
       values[at(pattern.receive_nodes[at(next++)])] = value;
     });
   }

@@ -112,7 +112,7 @@ std::vector<std::int64_t> IdBlocks::numbers_of(const std::vector<std::int64_t>& 
   const std::vector<Message> asked = comm_.sparse_all_to_all(questions.messages());
   collective_try(comm_, [&] {
     for (const Message& theirs : asked)
-      for_records<std::int64_t>({theirs.bytes}, [&](std::int64_t id) {
+      for_records<std::int64_t>(theirs.bytes, [&](std::int64_t id) {
         pack(answers.to(theirs.rank), number_in_block(id));
       });
   });

@@ -18,15 +18,14 @@ void pack(Bytes& bytes, const Record& record) {
   std::memcpy(bytes.data() + at, &record, sizeof record);
 }
 
-// Calls visit(record) for each record of the messages.
+// Calls visit(record) for each record of a message.
 template <class Record, class Visit>
-void for_records(const std::vector<Bytes>& messages, const Visit& visit) {
-  for (const Bytes& bytes : messages)
-    for (std::size_t at = 0; at < bytes.size(); at += sizeof(Record)) {
-      Record record;
-      std::memcpy(&record, bytes.data() + at, sizeof record);
-      visit(record);
-    }
+void for_records(const Bytes& message, const Visit& visit) {
+  for (std::size_t at = 0; at < message.size(); at += sizeof(Record)) {
+    Record record;
+    std::memcpy(&record, message.data() + at, sizeof record);
+    visit(record);
+  }
 }
 
 // Outgoing messages, one for each rank that receives anything.
@@ -61,7 +60,7 @@ std::vector<Record> of_all_ranks(const Communicator& comm, const std::vector<Rec
   Bytes mine;
   for (const Record& record : own) pack(mine, record);
   std::vector<Record> all;
-  for_records<Record>({comm.allgather(mine)}, [&](const Record& record) { all.push_back(record); });
+  for_records<Record>(comm.allgather(mine), [&](const Record& record) { all.push_back(record); });
   return all;
 }
 
@@ -71,7 +70,7 @@ template <class Record>
 std::vector<Record> deliver(const Communicator& comm, const Outbox& outgoing) {
   std::vector<Record> arrived;
   for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-    for_records<Record>({message.bytes}, [&](const Record& record) { arrived.push_back(record); });
+    for_records<Record>(message.bytes, [&](const Record& record) { arrived.push_back(record); });
   return arrived;
 }
 

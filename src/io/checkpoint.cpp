@@ -38,7 +38,7 @@ void share(const Communicator& comm, std::vector<Number>& numbers) {
   for (const Number number : numbers) pack(bytes, number);
   comm.broadcast(bytes, 0);
   numbers.clear();
-  for_records<Number>({bytes}, [&](Number number) { numbers.push_back(number); });
+  for_records<Number>(bytes, [&](Number number) { numbers.push_back(number); });
 }
 
 // Divides rows into pieces of about 1 MiB and calls visit(first row, number of rows) for each.
@@ -133,7 +133,7 @@ class CheckpointWriter {
     pack(mine, PatchSizes{std::ssize(patch.nodes), std::ssize(patch.simplices),
                           std::ssize(patch.border)});
     int rank = 0;
-    for_records<PatchSizes>({comm_.allgather(mine)}, [&](const PatchSizes& sizes) {
+    for_records<PatchSizes>(comm_.allgather(mine), [&](const PatchSizes& sizes) {
       if (rank++ == comm_.rank()) patches_before_ = all_patches_;
       all_patches_.nodes += sizes.nodes;
       all_patches_.simplices += sizes.simplices;

@@ -59,7 +59,7 @@ std::vector<std::int64_t> SharedFile::make(
   });
   comm_->broadcast(bytes, 0);
   std::vector<std::int64_t> numbers;
-  for_records<std::int64_t>({bytes}, [&](std::int64_t number) { numbers.push_back(number); });
+  for_records<std::int64_t>(bytes, [&](std::int64_t number) { numbers.push_back(number); });
   return numbers;
 }
 

@@ -35,7 +35,7 @@ class TagGroups {
     Bytes mine;
     for (const auto& [tag, group] : groups_) pack(mine, group);
     TagGroups all;
-    for_records<TagGroup>({comm.allgather(mine)}, [&](const TagGroup& group) { all.join(group); });
+    for_records<TagGroup>(comm.allgather(mine), [&](const TagGroup& group) { all.join(group); });
     std::vector<TagGroup> list;
     for (const auto& [tag, group] : all.groups_) list.push_back(group);
     return list;

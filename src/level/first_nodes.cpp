@@ -35,7 +35,7 @@ std::vector<LeafSummary<Dim>> summaries_of_unrefined_leaves(const Level<Dim>& le
     pack(mine, CellSummary{c, own[static_cast<std::size_t>(here)]});
   }
   std::vector<SpacingSummary<Dim>> summaries(static_cast<std::size_t>(cells.count()));
-  for_records<CellSummary>({level.comm->allgather(mine)}, [&](const CellSummary& summary) {
+  for_records<CellSummary>(level.comm->allgather(mine), [&](const CellSummary& summary) {
     summaries[static_cast<std::size_t>(summary.cell)] = summary.spacing;
   });
   std::vector<LeafSummary<Dim>> unrefined;

@@ -32,7 +32,7 @@ FoundNodes<Dim> over_ranks(const Communicator& comm, const FoundNodes<Dim>& own)
   Bytes mine;
   pack(mine, own);
   FoundNodes<Dim> all;
-  for_records<FoundNodes<Dim>>({comm.allgather(mine)}, [&](const FoundNodes<Dim>& found) {
+  for_records<FoundNodes<Dim>>(comm.allgather(mine), [&](const FoundNodes<Dim>& found) {
     all.add(found.count, found.id, found.at);
   });
   return all;

@@ -208,7 +208,7 @@ std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       const std::vector<std::int32_t>& sent = halo_.sent_to(neighbours[k]);
       const Translation<Dim> to = halo_.images().translation_to(neighbours[k]);
-      for_records<std::int32_t>({requests[k]}, [&](std::int32_t g) {
+      for_records<std::int32_t>(requests[k], [&](std::int32_t g) {
         pack_data(sent[static_cast<std::size_t>(g)], to, answers[k]);
       });
     }

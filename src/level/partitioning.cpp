@@ -44,8 +44,7 @@ std::vector<std::int32_t> keep_numbers(const LevelTree<Dim>& level,
   Bytes own;
   for (const auto& [to, kept_work] : kept) pack(own, KeptWork{kept_work, to, comm.rank()});
   std::vector<KeptWork> all;
-  for_records<KeptWork>({comm.allgather(own)},
-                        [&](const KeptWork& entry) { all.push_back(entry); });
+  for_records<KeptWork>(comm.allgather(own), [&](const KeptWork& entry) { all.push_back(entry); });
   return renumbered_parts(std::move(part), std::move(all), comm.size());
 }
 

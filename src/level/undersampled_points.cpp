@@ -71,7 +71,7 @@ void require_sampled_spacing(const Level<3>& level) {
   });
   if (level.comm->allreduce_max(!places.empty()) == 0) return;
   places.clear();
-  for_records<Place>({level.comm->allgather(mine)},
+  for_records<Place>(level.comm->allgather(mine),
                      [&](const Place& place) { places.push_back(place); });
   keep_finest(places);
   throw UndersampledSpacing(std::move(places));

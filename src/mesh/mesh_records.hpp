@@ -86,7 +86,7 @@ std::vector<Answer> query_owners(const Communicator& comm, const RankRanges& ran
   Outbox answers;
   for (const Message& message : comm.sparse_all_to_all(questions.messages())) {
     std::vector<Answer> to_it;
-    for_records<std::int64_t>({message.bytes},
+    for_records<std::int64_t>(message.bytes,
                               [&](std::int64_t number) { give(number, message.rank, to_it); });
     sort_and_keep_one(to_it, key);
     Bytes& bytes = answers.to(message.rank);

@@ -20,7 +20,7 @@ std::vector<NodeShare> claims_on_owned(const Communicator& comm, const RankRange
   for (const std::int64_t node : others) pack(outgoing.to(nodes.owner(node)), node);
   std::vector<NodeShare> claims;
   for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-    for_records<std::int64_t>({message.bytes}, [&](std::int64_t node) {
+    for_records<std::int64_t>(message.bytes, [&](std::int64_t node) {
       claims.push_back({node, message.rank});
     });
   sort(claims);

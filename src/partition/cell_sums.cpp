@@ -21,7 +21,7 @@ std::vector<std::int64_t> cell_prefix_sums(const Communicator& comm, std::int64_
     return before[static_cast<std::size_t>(entry.cell - first)];
   };
   for (const Message& theirs : asked)
-    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
+    for_records<CellSum>(theirs.bytes, [&](const CellSum& entry) {
       at(entry) = wrapping_sum(at(entry), entry.sum);
     });
   std::int64_t in_block = 0;
@@ -31,14 +31,14 @@ std::vector<std::int64_t> cell_prefix_sums(const Communicator& comm, std::int64_
       start, static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(in_block))));
 
   for (const Message& theirs : asked)
-    for_records<CellSum>({theirs.bytes}, [&](const CellSum& entry) {
+    for_records<CellSum>(theirs.bytes, [&](const CellSum& entry) {
       pack(answers.to(theirs.rank), wrapping_sum(before_block, at(entry)));
     });
   // The answers come by rank, so in the order of the cells.
   std::vector<std::int64_t> sums;
   sums.reserve(own.size());
   for (const Message& theirs : comm.sparse_all_to_all(answers.messages()))
-    for_records<std::int64_t>({theirs.bytes}, [&](std::int64_t sum) { sums.push_back(sum); });
+    for_records<std::int64_t>(theirs.bytes, [&](std::int64_t sum) { sums.push_back(sum); });
   return sums;
 }
 

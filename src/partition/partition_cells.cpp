@@ -144,7 +144,7 @@ std::vector<PartitionCell<Dim>> cells_of_equal_work(const Communicator& comm,
   Bytes found;
   put_together<Dim>(tree, known, total / (kCellsPerRank * comm.size()), 0, found);
   std::vector<PartitionCell<Dim>> cells;
-  for_records<PartitionCell<Dim>>({comm.allgather(found)},
+  for_records<PartitionCell<Dim>>(comm.allgather(found),
                                   [&](const PartitionCell<Dim>& cell) { cells.push_back(cell); });
   return cells;
 }

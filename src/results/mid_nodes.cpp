@@ -147,7 +147,7 @@ class MidNodeMaker {
     const std::vector<Message> arrived = comm_.sparse_all_to_all(asked.messages());
     std::vector<Question> all;
     for (const Message& message : arrived)
-      for_records<Question>({message.bytes}, [&](const Question& one) { all.push_back(one); });
+      for_records<Question>(message.bytes, [&](const Question& one) { all.push_back(one); });
     const std::vector<Answer> found = respond(all);
     Outbox told;
     auto next = found.begin();

@@ -27,7 +27,7 @@ std::vector<Point<Dim>> dips_over_ranks(const Communicator& comm, const std::vec
   Bytes mine;
   for (const GrowthSource<Dim>& dip : dips) pack(mine, dip);
   dips.clear();
-  for_records<GrowthSource<Dim>>({comm.allgather(mine)},
+  for_records<GrowthSource<Dim>>(comm.allgather(mine),
                                  [&](const GrowthSource<Dim>& dip) { dips.push_back(dip); });
   keep_finest();
   std::vector<Point<Dim>> places;

@@ -318,7 +318,7 @@ void GrowthLeaves<Dim>::report_too_many(double nodes) const {
           std::min(finest, Finest{leaf.min, middle_of<Dim>(points_.box_of(leaf.cell))}, before);
   Bytes mine;
   pack(mine, finest);
-  for_records<Finest>({comm_.allgather(mine)},
+  for_records<Finest>(comm_.allgather(mine),
                       [&](const Finest& found) { finest = std::min(finest, found, before); });
   limit_.report_too_many(nodes, finest.d, point_text(finest.x));
 }

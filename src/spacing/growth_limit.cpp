@@ -82,7 +82,7 @@ void GrowthLimit<Dim>::gather_limits(std::int64_t n, const Point<Dim>* x,
   for (std::int64_t i = 0; i < n; ++i)
     if (tree.owns(tree.leaf_at(x[i])))
       pack(mine, Answer{limits[static_cast<std::size_t>(i)], i, comm_->rank()});
-  for_records<Answer>({comm_->allgather(mine)}, [&](const Answer& answer) {
+  for_records<Answer>(comm_->allgather(mine), [&](const Answer& answer) {
     limits[static_cast<std::size_t>(answer.index)] = answer.limit;
   });
 }

@@ -68,7 +68,7 @@ typename NodalSearch<Searched>::Directory NodalSearch<Searched>::gather_boxes(
   Bytes bytes;
   for (const Box<kIn>& box : mine) pack(bytes, OwnedBox<kIn>{box, comm_->rank()});
   Directory directory;
-  for_records<OwnedBox<kIn>>({comm_->allgather(bytes)}, [&](const OwnedBox<kIn>& entry) {
+  for_records<OwnedBox<kIn>>(comm_->allgather(bytes), [&](const OwnedBox<kIn>& entry) {
     directory.boxes.push_back(entry.box);
     directory.ranks.push_back(static_cast<std::int32_t>(entry.rank));
   });
@@ -148,7 +148,7 @@ void NodalSearch<Searched>::look(std::int64_t n, const Point<kIn>* x, bool same,
   } else {
     Bytes bytes;
     for (const Reply<Answer>& reply : replies) pack(bytes, reply);
-    for_records<Reply<Answer>>({comm_->allgather(bytes)}, take);
+    for_records<Reply<Answer>>(comm_->allgather(bytes), take);
   }
 }
 

@@ -87,7 +87,7 @@ class LeafRanges {
   LeafRanges(const Communicator& comm, const std::vector<LeafCell<Dim>>& own) {
     Bytes mine;
     if (!own.empty()) pack(mine, Begin{own.front().first(), comm.rank()});
-    for_records<Begin>({comm.allgather(mine)},
+    for_records<Begin>(comm.allgather(mine),
                        [this](const Begin& begin) { begins_.push_back(begin); });
   }
 

@@ -78,7 +78,7 @@ class TreePart {
         pack(outgoing.to(rank), cells_[static_cast<std::size_t>(leaf)]);
     std::map<std::int32_t, std::int64_t> received;
     for (const Message& message : comm.sparse_all_to_all(outgoing.messages()))
-      for_records<LeafCell<Dim>>({message.bytes}, [&](const LeafCell<Dim>& cell) {
+      for_records<LeafCell<Dim>>(message.bytes, [&](const LeafCell<Dim>& cell) {
         cells_.push_back(cell);
         ++received[message.rank];
         before_ += message.rank < comm.rank();

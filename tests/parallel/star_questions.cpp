@@ -65,7 +65,7 @@ std::vector<Interval> intervals_of_ranks(pnpbs_placement placement) {
   pnpbs::Bytes bytes;
   pnpbs::pack(bytes, own);
   std::vector<Interval> all;
-  pnpbs::for_records<Interval>({comm->allgather(bytes)},
+  pnpbs::for_records<Interval>(comm->allgather(bytes),
                                [&](const Interval& interval) { all.push_back(interval); });
   return all;
 }

@@ -85,7 +85,7 @@ std::vector<SurfacePoint> of_all_ranks(const std::vector<SurfacePoint>& mine) {
   pnpbs::Bytes bytes;
   for (const SurfacePoint& node : mine) pnpbs::pack(bytes, node);
   std::vector<SurfacePoint> all;
-  pnpbs::for_records<SurfacePoint>({comm->allgather(bytes)},
+  pnpbs::for_records<SurfacePoint>(comm->allgather(bytes),
                                    [&](const SurfacePoint& node) { all.push_back(node); });
   return sorted(std::move(all));
 }

@@ -304,7 +304,7 @@ std::vector<PatchSums> sums_over_patches(const Communicator& comm, std::int32_t 
   for (const PiecesInCell& pieces : own) pack(outgoing.to(asked(pieces.patch)), pieces);
   std::vector<Question> questions;
   for (const Message& theirs : comm.sparse_all_to_all(outgoing.messages()))
-    for_records<PiecesInCell>({theirs.bytes}, [&](const PiecesInCell& pieces) {
+    for_records<PiecesInCell>(theirs.bytes, [&](const PiecesInCell& pieces) {
       questions.push_back({pieces, theirs.rank});
     });
   const std::vector<PatchSums> answers = answers_to(questions);
@@ -314,7 +314,7 @@ std::vector<PatchSums> sums_over_patches(const Communicator& comm, std::int32_t 
   std::vector<PatchSums> sums;
   sums.reserve(own.size());
   for (const Message& theirs : comm.sparse_all_to_all(answered.messages()))
-    for_records<PatchSums>({theirs.bytes}, [&](const PatchSums& sum) { sums.push_back(sum); });
+    for_records<PatchSums>(theirs.bytes, [&](const PatchSums& sum) { sums.push_back(sum); });
   return sums;
 }
 

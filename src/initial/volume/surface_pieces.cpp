@@ -183,7 +183,7 @@ class Cutter {
     Bytes mine;
     pack(mine, least_);
     LeastSpacing least;
-    for_records<LeastSpacing>({comm_.allgather(mine)},
+    for_records<LeastSpacing>(comm_.allgather(mine),
                               [&](const LeastSpacing& of_rank) { least.add(of_rank); });
     limit_.report_too_many(nodes, least.d, point_text(least.at));
   }
