@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/nodes.hpp"
-#include "comm/records.hpp"
 #include "partition/distribution.hpp"
 #include "partition/halo_exchange.hpp"
 #include "partition/packed_node.hpp"
@@ -47,6 +47,16 @@ struct NodeExchange {
   std::int64_t id_in_copy_of(int owner, std::int64_t id) const {
     return plan.images().translation_from(owner).id(id);
   }
+  // Returns a node that this rank has owned as rank `to` will have it. In a periodic domain, the
+  // node may have left the cell.
+  PackedNode<Dim> seen_by(int to, const Nodes<Dim>& nodes, std::int64_t i) const {
+    PackedNode<Dim> node = packed(nodes, i);
+    const PeriodicCell<Dim>& cell = plan.images().cell();
+    if (!cell.any()) return node;
+    node.id += PeriodicCell<Dim>::id_shift(cell.image_of(node.x));
+    node.translate(plan.images().translation_to(to), boundary_seen_from);
+    return node;
+  }
 };
 
 template <int Dim>
@@ -54,6 +64,10 @@ template <class KnownLeaf>
 std::int64_t NodeExchange<Dim>::pack_leaving(const Nodes<Dim>& nodes, const KnownLeaf& known_leaf,
                                              std::vector<Bytes>& outgoing,
                                              View<std::int32_t>& stay) const {
+  std::vector<std::vector<std::int32_t>> packed_for(outgoing.size());
+  const auto pack_for = [&](int r, std::int64_t i) {
+    if (plan.knows(r)) packed_for[plan.place(r)].push_back(static_cast<std::int32_t>(i));
+  };
   std::int64_t kept = 0;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     if (!nodes.owned(i)) continue;
@@ -66,25 +80,27 @@ std::int64_t NodeExchange<Dim>::pack_leaving(const Nodes<Dim>& nodes, const Know
     const int owner = distribution.owner(leaf);
     const bool ours = owner == rank;
     bool stays = ours;
-    const auto pack_for = [&](int r) {
-      PackedNode<Dim> node = packed(nodes, i);
-      if (plan.images().cell().any()) {
-        node.id = id_in_copy_of(owner, node.id);
-        node.translate(plan.images().translation_to(r), boundary_seen_from);
-      }
-      pack(outgoing[plan.place(r)], node);
-    };
-    if (!ours && plan.knows(owner)) pack_for(owner);
+    if (!ours) pack_for(owner, i);
     halo.for_ranks(leaf, [&](int r) {
       if (r == rank)
         stays = true;
-      else if (plan.knows(r))
-        pack_for(r);
+      else
+        pack_for(r, i);
       if (ours) plan.send(r, static_cast<std::int32_t>(kept));
     });
     if (!stays) continue;
     if (!ours) plan.receive(owner, static_cast<std::int32_t>(kept));
     stay(kept++) = static_cast<std::int32_t>(i);
+  }
+  // The messages are among the largest data of a rank, so their memory is exact.
+  for (std::size_t k = 0; k < outgoing.size(); ++k) {
+    const std::vector<std::int32_t> indices = std::exchange(packed_for[k], {});
+    std::size_t bytes = 0;
+    const int to = plan.neighbours()[k];
+    for (const std::int32_t i : indices) bytes += NodeMessage<Dim>::bytes_of(seen_by(to, nodes, i));
+    outgoing[k].reserve(bytes);
+    for (const std::int32_t i : indices)
+      NodeMessage<Dim>::append(outgoing[k], seen_by(to, nodes, i));
   }
   return kept;
 }
@@ -92,9 +108,9 @@ std::int64_t NodeExchange<Dim>::pack_leaving(const Nodes<Dim>& nodes, const Know
 template <int Dim>
 void NodeExchange<Dim>::reserve(Nodes<Dim>& nodes, std::int64_t kept,
                                 const std::vector<Bytes>& incoming) {
-  std::size_t bytes = 0;
-  for (const Bytes& message : incoming) bytes += message.size();
-  nodes.reserve_with_room(kept + static_cast<std::int64_t>(bytes / sizeof(PackedNode<Dim>)));
+  for (const Bytes& message : incoming)
+    NodeMessage<Dim>::for_nodes(message, [&](const PackedNode<Dim>&) { ++kept; });
+  nodes.reserve_with_room(kept);
 }
 
 template <int Dim>
@@ -107,11 +123,13 @@ void NodeExchange<Dim>::append_arriving(Nodes<Dim>& nodes, std::vector<Bytes> in
   const std::int64_t kept = nodes.count;
   reserve(nodes, kept, incoming);
   std::int32_t leaf = -1;  // start of the search, because consecutive nodes often share a leaf
-  for_records<PackedNode<Dim>>(incoming, [&](const PackedNode<Dim>& node) {
-    leaf = tree.leaf_at(node.x, leaf);
-    append(nodes, node, distribution.owns(leaf));
-  });
-  incoming = {};  // Frees its memory before the plan takes more.
+  for (Bytes& message : incoming) {
+    NodeMessage<Dim>::for_nodes(message, [&](const PackedNode<Dim>& node) {
+      leaf = tree.leaf_at(node.x, leaf);
+      append(nodes, node, distribution.owns(leaf));
+    });
+    message = {};  // Frees its memory before the plan takes more.
+  }
   for (std::int64_t i = kept; i < nodes.count; ++i) {
     leaf = tree.leaf_at(nodes.position(i), leaf);
     const auto node = static_cast<std::int32_t>(i);

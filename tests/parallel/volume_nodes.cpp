@@ -34,21 +34,25 @@ double number(std::int64_t id, int value) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-// Returns the state of node `id` at a moment, which depends on these two only.
+// Returns the state of node `id` at a moment, which depends on these two only. Some nodes have
+// values that messages leave out, each independently of the others.
 PackedNode node_at(std::int64_t id, int moment) {
+  const auto one_in = [&](int n, int value) { return number(id, value) * n < 1; };
+  const bool at_rest = moment == 0 && one_in(2, 55), was_here = one_in(2, 56);
   PackedNode node;
   node.id = id;
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double way = moment == 0 ? 0 : kDrift * (number(id, 3 * moment + k) - 0.5);
     node.x[at] = number(id, k) + way;
-    node.v[at] = number(id, 20 + 3 * moment + k) - 0.5;
-    node.reference[at] = number(id, 40 + k);
+    node.v[at] = at_rest ? 0 : number(id, 20 + 3 * moment + k) - 0.5;
+    node.reference[at] = number(id, was_here ? k : 40 + k);
   }
   node.d = kMin * (1 + 0.1 * number(id, 50));
-  node.tag = static_cast<std::int32_t>(100 * number(id, 51));
-  node.boundary_node = static_cast<std::int32_t>(10 * number(id, 52)) - 8;
-  node.reference_on = static_cast<std::int32_t>(10 * number(id, 54)) - 8;
+  node.tag = one_in(2, 57) ? 0 : static_cast<std::int32_t>(100 * number(id, 51));
+  node.boundary_node = one_in(2, 58) ? -1 : static_cast<std::int32_t>(10 * number(id, 52)) - 8;
+  node.reference_on =
+      one_in(2, 59) ? node.boundary_node : static_cast<std::int32_t>(10 * number(id, 54)) - 8;
   node.carrier = number(id, 53) < 0.5 ? pnpbs::Carrier::free : pnpbs::Carrier::fixed;
   return node;
 }
