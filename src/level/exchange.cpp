@@ -37,6 +37,10 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
     agree_on_failure(*level.comm, failure);
     exchange(level, hops);
   } else {
+    if (!level.ghosts.prepared()) {
+      agree_on_failure(*level.comm, failure);
+      level.ghosts.prepare_updates(*level.comm);
+    }
     run_and_keep(failure, [&] { update_without_agreement(level); });
     attempt(failure, [&] { level.neighbourhood.measure_displacement(level.nodes); });
   }
@@ -45,7 +49,7 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure) {
 template <int Dim>
 void update_ghosts(Level<Dim>& level) {
   if (!level.distributed()) return;
-  agree_on_failure(*level.comm, nullptr);
+  level.ghosts.prepare_updates(*level.comm);
   update_without_agreement(level);
 }
 

@@ -37,9 +37,15 @@ class Ghosts {
   // until the next exchange. All ranks must call it, and if one rank throws, all ranks throw.
   void migrate(const Communicator& comm, const LevelTree<Dim>& tree, Nodes<Dim>& nodes,
                Neighbourhood<Dim>& neighbourhood);
+  // Allocates memory for update(), once for an exchange. Most exchanges of the finish have no
+  // updates. All ranks must call it, and if one rank throws, all ranks throw.
+  void prepare_updates(const Communicator& comm) {
+    collective_try(comm, [&] { halo_.prepare_updates(); });
+  }
+  bool prepared() const { return halo_.prepared(); }
   // Sends positions and velocities of the present ghosts, which are exact afterwards. All
-  // neighbours must call it at the same time, without an agreement. Throws only on a rank that
-  // lacks values.
+  // neighbours must call it at the same time after prepare_updates(), without an agreement. Throws
+  // only on a rank that lacks values.
   void update(const LevelTree<Dim>& tree, Nodes<Dim>& nodes);
   // Fills the values at ghosts with those of their owners. All ranks must call it.
   void fill(const Communicator& comm, const View<double>& values) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A halo exchange plan: the owned nodes that each neighbour has as ghosts, and the owner of each
 // ghost. Until the plan is built again, one message to and from each neighbour updates the ghosts'
-// positions and velocities, in persistent buffers.
+// positions and velocities, in persistent buffers, which exist from the first update on.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ template <int Dim>
 class HaloExchange {
  public:
   HaloExchange() = default;
-  // Copies and moves keep the lists only. The result must be built before it can exchange.
+  // Copies and moves keep the lists only.
   HaloExchange(const HaloExchange& other)
       : images_(other.images_),
         neighbours_(other.neighbours_),
@@ -110,18 +110,29 @@ class HaloExchange {
   static constexpr std::size_t kRecordSize =
       2 * Dim * sizeof(double) + (Dim == 3 ? sizeof(std::int32_t) : 0);
 
-  // Completes the plan: sorts the lists by id, so that both sides agree, and allocates the buffers.
+  // Completes the plan: sorts the lists by id, so that both sides agree.
   void build(const Nodes<Dim>& nodes) {
-    for (auto* lists : {&send_, &receive_})
-      for (std::vector<std::int32_t>& list : *lists)
-        std::sort(list.begin(), list.end(),
-                  [&](std::int32_t a, std::int32_t b) { return nodes.id(a) < nodes.id(b); });
     exchange_.reset();
     order_ = MessageOrder(neighbours_, images_);
     comm_->reserve_messages(neighbours_.size());
+    outgoing_ = {};
+    incoming_ = {};
+    std::vector<std::pair<std::int64_t, std::int32_t>> by_id;  // faster to sort than indices alone
+    for (auto* lists : {&send_, &receive_})
+      for (std::vector<std::int32_t>& list : *lists) {
+        by_id.clear();
+        for (const std::int32_t node : list) by_id.emplace_back(nodes.id(node), node);
+        std::sort(by_id.begin(), by_id.end());
+        for (std::size_t k = 0; k < list.size(); ++k) list[k] = by_id[k].second;
+      }
+  }
+  // Allocates the buffers of update(), which then allocates no memory.
+  void prepare_updates() {
+    if (exchange_) return;
     make_buffers(kRecordSize, outgoing_, incoming_);
     exchange_ = comm_->persistent_exchange(order_.ranks(), outgoing_, incoming_);
   }
+  bool prepared() const { return exchange_ != nullptr; }
 
   // Allocates the memory of permute(), so that it cannot fail.
   void reserve_order(std::int64_t count) {
@@ -151,8 +162,8 @@ class HaloExchange {
         [&](std::int32_t i, const auto& visit) { visit(values(i)); });
   }
 
-  // Updates positions and velocities of ghosts. All neighbours must call it. A rank that misses a
-  // message throws and keeps its ghosts unchanged.
+  // Updates positions and velocities of ghosts. All neighbours must call it after
+  // prepare_updates(). A rank that misses a message throws and keeps its ghosts unchanged.
   void update(Nodes<Dim>& nodes, const BoundarySeenFrom<Dim>& boundary_seen_from) {
     run(*exchange_, outgoing_, incoming_, [&](std::int32_t i, const auto& visit) {
       for (int d = 0; d < Dim; ++d) {

@@ -73,7 +73,9 @@ class BoxNodes {
 
   // Updates the positions and velocities of the current ghosts from their owners.
   void update_ghosts() {
-    if (comm_->size() > 1) plan_.update(nodes_);
+    if (comm_->size() == 1) return;
+    plan_.prepare_updates();
+    plan_.update(nodes_);
   }
 
   const pnpbs::Halo& halo(int hops) { return distribution_.halo(hops, 1 / pnpbs::kRoomForGrowth); }
