@@ -2,13 +2,11 @@
 #include "level/ghost_stars.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <exception>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "base/index_by_id.hpp"
@@ -21,8 +19,8 @@ namespace {
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Packs a star into 64-bit words: a distance within which all its nodes lie, the number of the
-// following words, and the star with ids in place of nodes.
+// Packs a star: a distance within which all its nodes lie, its length, and the star with ids in
+// place of nodes.
 void pack_star(const Level<3>& level, std::int32_t i, const Translation<3>& to, Bytes& bytes) {
   constexpr double kRoundingMargin = 1 + 1e-9;
   const Nodes<3>& nodes = level.nodes;
@@ -31,27 +29,30 @@ void pack_star(const Level<3>& level, std::int32_t i, const Translation<3>& to, 
     square = std::max(square, squared_distance<3>(nodes.position(i), nodes.position(j)));
   });
   const std::span<const std::int32_t> star = level.stars.row(i);
-  std::vector<std::int64_t> words{std::bit_cast<std::int64_t>(kRoundingMargin * std::sqrt(square)),
-                                  std::ssize(star)};
-  VolumeStars::renumber(
-      star, [&](std::int32_t j) { return to.id(nodes.id(j)); }, words);
-  for (const std::int64_t word : words) pack(bytes, word);
+  pack(bytes, kRoundingMargin * std::sqrt(square));
+  pack(bytes, static_cast<std::int32_t>(star.size()));
+  const std::size_t ids_end = VolumeStars::header_and_nodes(star[0], star.size());
+  pack(bytes, star[0]);
+  for (std::size_t k = 1; k < ids_end; ++k) pack(bytes, to.id(nodes.id(star[k])));
+  for (std::size_t k = ids_end; k < star.size(); ++k) pack(bytes, star[k]);
 }
 
-// Calls visit(i, reach, star) for each star in the messages, with ids in place of nodes.
-template <class Visit>
-void for_stars(const std::vector<GhostData>& received, const Visit& visit) {
-  for (const GhostData& data : received) {
-    if (data.ghosts.empty()) continue;  // an empty message has no address to copy from
-    std::vector<std::int64_t> words(data.bytes.size() / sizeof(std::int64_t));
-    std::memcpy(words.data(), data.bytes.data(), data.bytes.size());
-    std::size_t at = 0;
-    for (const std::int32_t i : data.ghosts) {
-      const std::span<const std::int64_t> star(words.data() + at + 2, index(words[at + 1]));
-      visit(i, std::bit_cast<double>(words[at]), star);
-      at += 2 + star.size();
-    }
-  }
+// Appends the star at `at` in a message to `rows`, with the nodes of this rank in place of ids, or
+// -1. Advances `at`. Returns the distance within which its nodes lie.
+double take_star(const char*& at, const IndexById& by_id, std::vector<std::int32_t>& rows) {
+  const auto take = [&at]<class T>(T value) {
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+    return value;
+  };
+  const double reach = take(double{});
+  const auto size = static_cast<std::size_t>(take(std::int32_t{}));
+  const std::int32_t header = take(std::int32_t{});
+  const std::size_t ids_end = VolumeStars::header_and_nodes(header, size);
+  rows.push_back(header);
+  for (std::size_t k = 1; k < ids_end; ++k) rows.push_back(by_id.of(take(std::int64_t{})));
+  for (std::size_t k = ids_end; k < size; ++k) rows.push_back(take(std::int32_t{}));
+  return reach;
 }
 
 // Stores the stars in the messages, or requests the nodes that they lack.
@@ -59,21 +60,22 @@ void store_stars(const std::vector<GhostData>& received, const IndexById& by_id,
                  FunctionRef<void(std::int64_t, double)> request, VolumeStars& stars,
                  std::int64_t count) {
   constexpr std::int32_t kUnknown = -1;
-  std::vector<std::int32_t> rows;
-  std::vector<std::pair<std::size_t, std::size_t>> row_of(index(count));
+  std::vector<const char*> star_at(index(count));
   std::vector<char> complete(index(count), 0);
-  for_stars(received, [&](std::int32_t i, double reach, std::span<const std::int64_t> star) {
-    const std::size_t first = rows.size();
-    VolumeStars::renumber(
-        star, [&](std::int64_t id) { return by_id.of(id); }, rows);
-    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
-    complete[index(i)] = std::find(begin, rows.end(), kUnknown) == rows.end();
-    row_of[index(i)] = {first, rows.size()};
-    if (!complete[index(i)]) request(i, reach);
-  });
+  std::vector<std::int32_t> star;
+  for (const GhostData& data : received) {
+    const char* at = data.bytes.data();
+    for (const std::int32_t i : data.ghosts) {
+      star_at[index(i)] = at;
+      star.clear();
+      const double reach = take_star(at, by_id, star);
+      complete[index(i)] = std::ranges::find(star, kUnknown) == star.end();
+      if (!complete[index(i)]) request(i, reach);
+    }
+  }
   stars.replace(complete, [&](std::int64_t i, std::vector<std::int32_t>& out) {
-    const auto [first, last] = row_of[index(i)];
-    out.insert(out.end(), rows.data() + first, rows.data() + last);
+    const char* at = star_at[index(i)];
+    take_star(at, by_id, out);
   });
 }
 

@@ -249,6 +249,9 @@ void PreviousStars::take(const Nodes<3>& nodes, VolumeStars& stars, std::uint64_
   owned_.assign(nodes.owned.data(), nodes.owned.data() + nodes.count);
   digest_ = digest;
   stars_ = std::exchange(stars, VolumeStars());
+  std::vector<char> ghosts(owned_.size());
+  std::ranges::transform(owned_, ghosts.begin(), [](char owned) { return owned == 0; });
+  if (any_set(ghosts)) stars_.remove(ghosts);
 }
 
 void PreviousStars::forget() { *this = PreviousStars(); }

@@ -279,15 +279,28 @@ void VolumeStars::build(const VolumeStarInput& input) {
               [&] { return StarWriter(input, needs_); });
 }
 
+namespace {
+
+void write_none(std::int64_t, std::vector<std::int32_t>& out) {
+  out.push_back(VolumeStars::header(0, false));
+}
+
+}  // namespace
+
 void VolumeStars::build_none(const VolumeStarInput& input) {
   on_surfaces_ = false;
   found_.assign(static_cast<std::size_t>(input.nodes.count), 0);
   arrangement_ = input.nodes.arrangement();
   needs_.assign(input.known.is_everywhere() ? 0 : static_cast<std::size_t>(input.nodes.count), 0);
-  const auto write_none = [](std::int64_t, std::vector<std::int32_t>& out) {
-    out.push_back(header(0, false));
-  };
-  rows_.build("pnpbs::VolumeStars::build_none", input.nodes.count, [&] { return write_none; });
+  rows_.build("pnpbs::VolumeStars::build_none", input.nodes.count, [] { return write_none; });
+}
+
+void VolumeStars::remove(const std::vector<char>& unwanted) {
+  doubt(unwanted);
+  rows_.rewrite(
+      "pnpbs::VolumeStars::remove", std::ssize(unwanted),
+      [&](std::int64_t i) { return unwanted[static_cast<std::size_t>(i)] != 0; },
+      [] { return write_none; });
 }
 
 void VolumeStars::add(const VolumeStarInput& input, const std::vector<char>& wanted) {

@@ -79,6 +79,9 @@ class VolumeStars {
         [&] { return write; });
   }
 
+  // Removes the stars of the nodes for which `unwanted` is set.
+  void remove(const std::vector<char>& unwanted);
+
   // Calls visit(j) for the neighbours of node i in ascending order of ids. These are the other
   // corners of tetrahedra of the domain, or of triangles, around it.
   template <class Visit>
@@ -127,14 +130,20 @@ class VolumeStars {
   }
   // Returns the star of node i in the format described below.
   std::span<const std::int32_t> row(std::int64_t i) const { return rows_.row(i); }
+  // Returns the number of entries, counted from the first one, of a star of tetrahedra that are its
+  // header and nodes. `size` is the number of all.
+  static std::size_t header_and_nodes(std::int32_t header, std::size_t size) {
+    const auto n = static_cast<std::size_t>(header / 2);
+    return n > static_cast<std::size_t>(kMaxPlaces) ? size : n + 1;
+  }
   // Appends a star of tetrahedra to `out`, in which number(j) replaces node j.
-  template <class Node, class Number, class Out>
-  static void renumber(std::span<const Node> row, const Number& number, std::vector<Out>& out) {
-    const auto n = static_cast<std::int32_t>(row[0] / 2);
-    const auto nodes = n > kMaxPlaces ? row.size() : static_cast<std::size_t>(n + 1);
-    out.push_back(static_cast<Out>(row[0]));
+  template <class Number>
+  static void renumber(std::span<const std::int32_t> row, const Number& number,
+                       std::vector<std::int32_t>& out) {
+    const std::size_t nodes = header_and_nodes(row[0], row.size());
+    out.push_back(row[0]);
     for (std::size_t k = 1; k < nodes; ++k) out.push_back(number(row[k]));
-    for (std::size_t k = nodes; k < row.size(); ++k) out.push_back(static_cast<Out>(row[k]));
+    for (std::size_t k = nodes; k < row.size(); ++k) out.push_back(row[k]);
   }
 
   // Frees the stars of the kChunk nodes from c * kChunk on.
