@@ -123,9 +123,11 @@ struct Nodes {
   void reserve(std::int64_t n) {
     if (n <= capacity()) return;
     require_fits_rank(n, "nodes");
+    release_spare();
     for_arrays([&](auto& array, const char* label) { grow_labelled(array, label, n); });
-    spare_ = Spare();
   }
+  // Releases the arrays that permute() keeps.
+  void release_spare() noexcept { spare_ = Spare(); }
 
   // Returns an array with an entry per node for a permutation. Its contents are undefined.
   View<std::int32_t>& order_scratch() {

@@ -32,13 +32,18 @@ void Neighbourhood<Dim>::forget(const LevelTree<Dim>& tree, const Nodes<Dim>& no
                                 const Figures& figures) noexcept {
   prepared_for_ = nullptr;
   buckets_.reset(tree.links());
-  lists_ = {};
   listed_ = {};
-  for_steps_ = false;
-  arrangement_ = -1;
+  release_lists();
   rebuilds_ = figures.rebuilds;
   owned_work_ = figures.owned_work;
   work_counted_ = figures.work_is_current ? nodes.references() : -1;
+}
+
+template <int Dim>
+void Neighbourhood<Dim>::release_lists() noexcept {
+  lists_ = {};
+  for_steps_ = false;
+  arrangement_ = -1;
 }
 
 template <int Dim>
@@ -72,6 +77,7 @@ template <int Dim>
 void Neighbourhood<Dim>::rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                                       const LevelTree<Dim>& tree, double radius, ListsOf listed) {
   listed_ = {};
+  nodes.release_spare();
   // Near facets are found from the reference positions, even if nodes have moved since.
   rebuild(nodes, geometry, tree, radius, nodes.referenced_here() ? nodes.reference : nodes.x,
           listed);

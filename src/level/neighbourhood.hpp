@@ -50,10 +50,12 @@ class Neighbourhood {
   void add_lists(const Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                  const LevelTree<Dim>& tree, const std::vector<std::int32_t>& more);
   // Builds lists of this radius at the present positions. The next step then rebuilds its own
-  // lists. Releases the positions that displacements are measured from, because stars need the
-  // memory.
+  // lists. Releases the positions that displacements are measured from and the spare arrays of the
+  // nodes, because stars need the memory.
   void rebuild_here(Nodes<Dim>& nodes, const LevelGeometry<Dim>& geometry,
                     const LevelTree<Dim>& tree, double radius, ListsOf listed);
+  // Releases the lists, which must be rebuilt before they are read again.
+  void release_lists() noexcept;
   // Returns whether the lists for steps may lack a pair within the range of the force.
   bool needs_rebuild(const Nodes<Dim>& nodes, const Settings& settings) const;
 

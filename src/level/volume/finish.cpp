@@ -53,6 +53,7 @@ void sweep_to_means(Level<3>& level, std::int64_t sweeps) {
                                 level.time_integration.scratch(level.nodes), may_go(level)));
     });
   }
+  level.time_integration = {};  // Releases its memory, because repairs need more than sweeps.
 }
 
 // Moves points near level sets to where these are 0. A point gets the facet -1 if there is no such
@@ -111,41 +112,30 @@ void repair_rounds(Level<3>& level, SliverRepair& repair, const SliverRule& rule
   }
 }
 
-// The distances that nodes on surfaces may move from their positions before the repair.
-class RoomOnSurfaces {
- public:
-  explicit RoomOnSurfaces(const Level<3>& level) : level_(level) {
-    collective_try(*level.comm, [&] {
-      for (std::int64_t i = 0; i < level.nodes.count; ++i)
-        before_.push_back({level.nodes.boundary_node(i), level.nodes.position(i)});
-    });
-  }
-  // Returns the largest length of one move of node i. A node may be twice as far from its position
-  // before the repair.
-  double way(std::int64_t i) const {
-    if (level_.nodes.carrier(i) != Carrier::surface) return HUGE_VAL;
-    return room_on_thin_wall(level_, before(i), level_.nodes.d(i));
-  }
-  const SurfacePoint& before(std::int64_t i) const { return before_[static_cast<std::size_t>(i)]; }
+// Returns the point of a surface on which node i lay before the repair.
+SurfacePoint before_repair(const Nodes<3>& nodes, std::int64_t i) {
+  return {nodes.reference_on(i), point_at<3>(nodes.reference, i)};
+}
 
- private:
-  const Level<3>& level_;
-  std::vector<SurfacePoint> before_;
-};
+// Returns the largest length of one move of node i. A node may be twice as far from its position
+// before the repair.
+double room_on_surface(const Level<3>& level, std::int64_t i) {
+  if (level.nodes.carrier(i) != Carrier::surface) return HUGE_VAL;
+  return room_on_thin_wall(level, before_repair(level.nodes, i), level.nodes.d(i));
+}
 
 // Returns the rules by which nodes move along surfaces. Nodes on inner surfaces do not move,
 // because the repair does not handle the triangles there. Nodes on thin walls may move little, so
 // that they stay opposite their partners. Nodes of a level set keep their distance from its
 // triangles on the way.
-AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
-                                  const RoomOnSurfaces& room) {
-  const auto walk = [&level, &room](std::int64_t i, const Point<3>& direction, double length) {
+AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input) {
+  const auto walk = [&level](std::int64_t i, const Point<3>& direction, double length) {
     const LevelGeometry<3>& geometry = level.geometry;
     const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
     if (!geometry.bounds_domain(from.facet)) return from;
-    const double way = room.way(i);
+    const double way = room_on_surface(level, i);
     const SurfacePoint to = go_along_surface(level, i, direction, std::min(length, way));
-    if (distance<3>(to.position, room.before(i).position) > 2 * way) return from;
+    if (distance<3>(to.position, before_repair(level.nodes, i).position) > 2 * way) return from;
     if (!geometry.domain().level_sets().at(to.facet))
       return AlongSurfaces::Place{to.position, to.facet};
     const Surface& surface = geometry.surface();
@@ -170,11 +160,11 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
 void repair_slivers(Level<3>& level, double repair_below) {
   make_finish_stars(level, {method::kSliverRings,
                             method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
+  level.neighbourhood.release_lists();  // The repair needs the memory for changed stars.
   const SliverRule rule{repair_below};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
-  const RoomOnSurfaces room(level);
-  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input, room);
+  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input);
   std::optional<SliverRepair> repair;
   collective_try(*level.comm, [&] {
     repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces);

@@ -25,10 +25,7 @@ SliverRepair::SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const Sliv
       allowed_(std::move(allowed)),
       along_surfaces_(std::move(along_surfaces)),
       stars_(nodes, stars, along_surfaces_.walk != nullptr),
-      before_(static_cast<std::size_t>(nodes.count)),
       is_affected_(static_cast<std::size_t>(nodes.count)) {
-  for (std::int64_t i = 0; i < nodes.count; ++i)
-    before_[static_cast<std::size_t>(i)] = nodes.position(i);
   bool any_ghost = false;
   for (std::int32_t i = 0; i < nodes.count; ++i) any_ghost = any_ghost || !nodes.owned(i);
   if (any_ghost) index_by_id_ = IndexById(nodes);
@@ -318,7 +315,7 @@ void SliverRepair::try_moves(Attempt& attempt) const {
 }
 
 bool SliverRepair::too_far(std::int32_t i, const Point<3>& x) const {
-  return distance<3>(before_[static_cast<std::size_t>(i)], x) > method::kSliverDrift * nodes_.d(i);
+  return distance<3>(point_at<3>(nodes_.reference, i), x) > method::kSliverDrift * nodes_.d(i);
 }
 
 // Returns whether x is too close to a boundary node in the star of node i, and closer than the
@@ -343,7 +340,7 @@ void SliverRepair::find_boundary_nodes() {
     if (nodes_.carrier(i) == Carrier::free) continue;
     boundary_nodes_.push_back(i);
     boxes.push_back(
-        box_around<3>(before_[static_cast<std::size_t>(i)], method::kSliverDrift * nodes_.d(i)));
+        box_around<3>(point_at<3>(nodes_.reference, i), method::kSliverDrift * nodes_.d(i)));
   }
   boundary_boxes_ = BoxTree<3>(std::move(boxes));
 }

@@ -84,7 +84,8 @@ class SliverRepair {
   using Allowed = std::function<bool(std::int64_t i, const Point<3>& x)>;
 
   // Finds the slivers. `stars` must be valid for the current positions of the owned nodes and of
-  // ghosts within method::kSliverRings of these. `nodes` and `stars` must outlive this object.
+  // ghosts within method::kSliverRings of these. The nodes must be at their reference positions,
+  // from which their displacement is measured. `nodes` and `stars` must outlive this object.
   // Nodes on surfaces move only if `along_surfaces.walk` is set: for slivers whose other nodes
   // cannot move, and for all slivers in the later half of the rounds.
   SliverRepair(Nodes<3>& nodes, const VolumeStars& stars, const SliverRule& rule, Allowed allowed,
@@ -175,7 +176,6 @@ class SliverRepair {
   Allowed allowed_;
   AlongSurfaces along_surfaces_;
   StarChanges stars_;
-  std::vector<Point<3>> before_;  // positions of the nodes when the repair began
   // Boundary nodes, and boxes that they do not leave during the repair.
   std::vector<std::int32_t> boundary_nodes_;
   BoxTree<3> boundary_boxes_;
