@@ -117,6 +117,7 @@ module pnpbs
     procedure :: set_repair => domain_set_repair
     procedure :: set_resurfaced => domain_set_resurfaced
     procedure :: set_fragment => domain_set_fragment
+    procedure :: set_periodic => domain_set_periodic
     procedure :: add_hole => domain_add_hole
     procedure :: add_region => domain_add_region
     procedure :: add_fixed_nodes => domain_add_fixed_nodes
@@ -1168,6 +1169,50 @@ contains
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     call conclude('domain%set_fragment', c_domain_set_fragment(self%c, overlap), stat, errmsg)
+  end subroutine
+
+  !> Makes the domain a box that repeats itself along some axes. It has no boundary across these
+  !> axes: bubbles on both sides of a seam act on each other. The other sides of the box are
+  !> boundaries. Closed curves and surfaces are holes and cavities or, with the role PNPBS_INNER or
+  !> as fragments, inclusions. They are given once, stand for all their copies, and may extend
+  !> beyond a periodic side. d is evaluated at points of the box only, and continued with its
+  !> periods.
+  !> Nodes lie in the box; low <= x < high along a periodic axis. Results have the images of nodes
+  !> near the box as ghosts, on a single rank as well: an image has the id of its node, and its
+  !> coordinates differ from those of the node by whole periods. Adjacency lists and elements refer
+  !> to images, so an element at a seam has its true shape, and no element occurs twice.
+  !> Coordinates along a periodic axis, and the period, are rounded to multiples of 2**(-50) times
+  !> the largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and
+  !> inner curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
+  !> elements, elements of second order, distributed meshes, Voronoi cells, particles, transfer,
+  !> cracks, checkpoints and a spacing at nodes. Local. initialise and run return
+  !> PNPBS_ERROR_SPACING if a period is shorter than four spacings.
+  !>   low, high  (dim) corners of the box
+  !>   periodic   (dim) true along the axes on which the domain is periodic
+  !>   tags       (2 dim) of the other sides: low x, high x, low y, ...; all are 1 if absent
+  subroutine domain_set_periodic(self, low, high, periodic, tags, stat, errmsg)
+    class(pnpbs_domain), intent(in) :: self
+    real(c_double), intent(in) :: low(:), high(:)
+    logical, intent(in) :: periodic(:)
+    integer(c_int32_t), intent(in), optional :: tags(:)
+    class(*), intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(arguments) :: given
+    type(c_ptr) :: a_tags
+    integer(c_int64_t) :: room
+    integer(c_int) :: status
+    integer(c_int32_t) :: axes(size(periodic))
+    integer :: dim
+    dim = dimension_of(self, given)
+    call given%check_rows('low', size(low), dim)
+    call given%check_rows('high', size(high), dim)
+    call given%check_rows('periodic', size(periodic), dim)
+    call given%place_int32('tags', tags, a_tags, room)
+    call given%require('tags', room, int(2 * dim, c_int64_t))
+    axes = merge(1_c_int32_t, 0_c_int32_t, periodic)
+    status = PNPBS_OK
+    if (.not. given%is_wrong()) status = c_domain_set_periodic(self%c, low, high, axes, a_tags)
+    call conclude('domain%set_periodic', status, stat, errmsg, given)
   end subroutine
 
   !> Removes the region around a point from the domain, up to the next curves or surfaces of either

@@ -375,21 +375,30 @@ PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double r
  *  @param[in] overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN */
 PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 
-/** Makes the domain a box that repeats itself along some axes. Across these axes there is no
- *  boundary: bubbles on both sides of a seam act on each other. The other sides of the box are
- *  boundaries. Closed curves and surfaces in the box are holes, cavities or, with the role
- *  PNPBS_INNER or as fragments, inclusions; they may extend beyond a periodic side, and stand for
- *  all their copies. The spacing is evaluated at points of the box only, and continued by its
- *  periods. Nodes lie in the box, low <= x < high along a periodic axis.
+/** Makes the domain a box that repeats itself along some axes. It has no boundary across these
+ * axes: bubbles on both sides of a seam act on each other. The other sides of the box are
+ * boundaries. Closed curves and surfaces are holes and cavities or, with the role PNPBS_INNER or as
+ * fragments, inclusions. They are given once, stand for all their copies, and may extend beyond a
+ * periodic side. d is evaluated at points of the box only, and continued with its periods.
  *
- *  Coordinates of nodes along periodic axes are multiples of 2^-51 times the extent of the domain,
- *  and the period is rounded to such a multiple: the images of a node differ exactly by it, and the
- *  node set is the same on any number of ranks. Not on a sphere, nor for surfaces alone, level sets
- *  and inner curves in space. Local. Errors: PNPBS_ERROR_ARGUMENT; pnpbs_placement_run returns
+ *  Nodes lie in the box; low <= x < high along a periodic axis. Results have the images of nodes
+ *  near the box as ghosts (pnpbs_placement_get_ghosts), on a single rank as well: an image has the
+ *  id of its node, and its coordinates differ from those of the node by whole periods. Adjacency
+ *  lists and elements refer to images, so an element at a seam has its true shape, and no element
+ *  occurs twice. pnpbs_exchange and sums over ghosts treat images like other ghosts.
+ *
+ *  Coordinates along a periodic axis are multiples of 2^-50 times the largest coordinate of an
+ *  image, and so is the period, which is rounded to it. So the node set does not depend on the
+ *  ranks, like that of other domains. Not on a sphere, nor for surfaces alone, level sets and inner
+ *  curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
+ *  elements, elements of second order, distributed meshes, Voronoi cells, particles, transfer,
+ *  cracks, checkpoints and a spacing at nodes.
+ *
+ *  Local. Errors: PNPBS_ERROR_ARGUMENT. pnpbs_placement_initialise and _run return
  *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.
  *  @param[in] low, high  [dim] corners of the box
  *  @param[in] periodic   [dim] nonzero along the axes on which the domain is periodic
- *  @param[in] tags       [2 dim] tags of the other sides, low x, high x, low y, ...; NULL: all 1 */
+ *  @param[in] tags       [2 dim] of the other sides: low x, high x, low y, ...; NULL: all are 1 */
 PNPBS_API pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double *low,
                                                  const double *high, const int32_t *periodic,
                                                  const int32_t *tags);

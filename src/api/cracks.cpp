@@ -19,6 +19,7 @@ template <class Body>
 pnpbs_status with_cracks(pnpbs_placement placement, std::int64_t* count, const Body& body) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
+    require_not_periodic(results, "there are no cracks");
     return visit_dimension(results, [&](auto& in) { return body(in, in.cracks()); });
   });
 }

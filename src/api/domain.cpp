@@ -341,7 +341,7 @@ pnpbs_status pnpbs_domain_bounds(pnpbs_domain domain, double* low, double* high)
   return query_domain(domain, [&](const auto& checked) {
     require_pointer(low, "low");
     require_pointer(high, "high");
-    const auto& box = checked.bounds();
+    const auto& box = checked.cell().any() ? checked.cell().box() : checked.bounds();
     std::copy(box.low.begin(), box.low.end(), low);
     std::copy(box.high.begin(), box.high.end(), high);
     if (const double radius = checked.embedding().radius(); radius > 0) {

@@ -18,6 +18,9 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const std::vector<io::FileRequest> requests =
         requests_of(n, paths, formats, elements, io::requested_of(*object.placement));
     require_same_requests(object.placement->communicator(), requests);
+    for (const io::FileRequest& request : requests)
+      if (request.order > 0 || request.facets)
+        require_not_periodic(object.placement->results(), "no file has the elements");
     io::write_files(*object.placement, object.output_fields, requests);
     return PNPBS_OK;
   });
@@ -58,6 +61,7 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
                   "placed, on coarser levels, or in the finish");
     collective_try(object.placement->communicator(), [&] {
       require_pointer(path, "path");
+      require_not_periodic(object.placement->results(), "there are no checkpoints");
       io::write_checkpoint(*object.placement, path);
     });
     return PNPBS_OK;

@@ -45,6 +45,19 @@ pnpbs_status collective(pnpbs_placement placement, const Body& body) {
                               [&](PlacementObject& object) { return body(*object.placement); });
 }
 
+// Throws Error(ErrorKind::unsupported) if the nodes are those of a periodic domain. `what` is what
+// does not exist for it.
+inline void require_not_periodic(NodalResults& results, const std::string& what) {
+  if (!results.has_nodes()) return;
+  pnpbs::visit_dimension(results, [&](const auto& in) {
+    if (in.level().geometry.cell().any())
+      throw Error(ErrorKind::unsupported, what +
+                                              " of a periodic domain: elements at its seams have "
+                                              "images of nodes as corners (see "
+                                              "pnpbs_domain_set_periodic)");
+  });
+}
+
 // Creates an object from a placement on all ranks or on none. make(placement object) returns a
 // shared pointer to it. `*handle` becomes the handle of the new object, or NULL. Collective.
 template <class Object, class Handle, class Make>
@@ -54,6 +67,7 @@ pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const 
   Handle made = nullptr;
   const pnpbs_status status = collective_on_object(placement, [&](PlacementObject& object) {
     require_pointer(handle, argument);
+    require_not_periodic(object.placement->results(), std::string("there is no ") + argument);
     made = registry().add(make(object));
     return PNPBS_OK;
   });

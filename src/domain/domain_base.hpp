@@ -76,6 +76,15 @@ class DomainBase {
   }
 
  protected:
+  // Returns the number of copies on each side. Points in regions need the curves and surfaces of
+  // the next copies around them.
+  Image<Dim> copies_to_resolve() const {
+    Image<Dim> copies = copies_;
+    for (std::int32_t& along : copies)
+      if (along == 1 && !region_points_.empty()) along = 2;
+    return copies;
+  }
+
   std::vector<FixedNode<Dim>> given_nodes_;
   std::vector<RegionPoint<Dim>> region_points_;
   std::vector<Warning> given_warnings_;

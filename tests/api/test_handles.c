@@ -100,6 +100,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_set_repair, (handle, 0.0))                                                 \
   X(domain_set_resurfaced, (handle, 0.0))                                             \
   X(domain_set_fragment, (handle, 0))                                                 \
+  X(domain_set_periodic, (handle, box, box + 3, periodic, NULL))                      \
   X(domain_check, (handle))                                                           \
   X(domain_dimension, (handle, out.small + 2))                                        \
   X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \

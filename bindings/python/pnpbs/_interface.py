@@ -58,6 +58,8 @@ pnpbs_status pnpbs_domain_set_filled(pnpbs_domain domain, int32_t filled);
 pnpbs_status pnpbs_domain_set_repair(pnpbs_domain domain, double resolution);
 pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double resolution);
 pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
+pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double *low, const double *high,
+                                       const int32_t *periodic, const int32_t *tags);
 pnpbs_status pnpbs_domain_add_polyline(pnpbs_domain domain, int32_t role, int32_t closed,
     int64_t n, const double *coordinates, const int32_t *tags, double corner_angle);
 pnpbs_status pnpbs_domain_add_surface(pnpbs_domain domain, int32_t role, int64_t vertices,

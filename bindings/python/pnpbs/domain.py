@@ -8,7 +8,7 @@ import math
 import operator
 import os
 from collections import Counter
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -490,6 +490,37 @@ class Domain(Handle):
         if overlap not in _interface.OVERLAPS:
             raise ValueError(f'overlap is {overlap!r}, expected "last", "first" or "own"')
         return self._call("set_fragment", _interface.OVERLAPS[overlap])
+
+    def set_periodic(self, low: ArrayLike, high: ArrayLike,
+                     periodic: Union[bool, Sequence[bool]] = True,
+                     tags: Optional[ArrayLike] = None) -> Domain:
+        """Makes the domain a box that repeats itself along some axes. It has no boundary across
+        these axes: bubbles on both sides of a seam act on each other. The other sides of the box
+        are boundaries. Closed curves and surfaces are holes and cavities or, with the role "inner"
+        or as fragments, inclusions. They are given once, stand for all their copies, and may extend
+        beyond a periodic side. The spacing is evaluated at points of the box only, and continued
+        with its periods.
+
+        Nodes lie in the box, low <= x < high along a periodic axis. Results have the images of
+        nodes near the box as ghosts, on a single rank as well: an image has the id of its node, and
+        its coordinates differ from those of the node by whole periods. Adjacency lists and elements
+        refer to images, so an element at a seam has its true shape, and no element occurs twice.
+
+        Coordinates along a periodic axis, and the period, are rounded to multiples of 2**-50 times
+        the largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and
+        inner curves in space. Not yet for a periodic domain, but `Status.ERROR_UNSUPPORTED`: files
+        with elements, elements of second order, distributed meshes, Voronoi cells, particles,
+        transfer, cracks, checkpoints and a spacing at nodes.
+
+        - `periodic`: True for all axes, or a value for each axis.
+        - `tags`: those of the other sides, low x, high x, low y and so on; one for all sides or one
+          for each. The default is 1.
+
+        `Placement.run` raises `Status.ERROR_SPACING` if a period is shorter than four spacings."""
+        axes = np.broadcast_to(np.asarray(periodic, dtype=np.int32), self.dim)
+        return self._call("set_periodic", as_point(low, self.dim, "low"),
+                          as_point(high, self.dim, "high"), np.ascontiguousarray(axes),
+                          as_tags(tags, 2 * self.dim, "tags"))
 
     # ------------------------------------------------------------ files and tags ---------------
 

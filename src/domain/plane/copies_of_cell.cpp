@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -85,7 +86,11 @@ CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, const Image<2>& copies,
         all.sources.push_back(std::move(copy));
         all.in_cell.push_back(image == Image<2>{});
       }
+      // The curves around a point in an outermost copy may be left out.
+      const bool outermost = (copies[0] > 0 && std::abs(x) == copies[0]) ||
+                             (copies[1] > 0 && std::abs(y) == copies[1]);
       for (RegionPoint<2> point : region_points) {
+        if (outermost) break;
         point.point = to_copy(cell, image, cell.in_cell(cell.rounded(point.point)));
         all.region_points.push_back(std::move(point));
       }

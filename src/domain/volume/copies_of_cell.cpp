@@ -2,6 +2,7 @@
 #include "domain/volume/copies_of_cell.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "tree/box_tree.hpp"
@@ -78,6 +79,7 @@ CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, const Image<3>& cop
                                 const std::vector<FixedNode<3>>& fixed_nodes) {
   CopiesOfSurfaces all;
   all.surfaces.push_back(SidesOfBox(cell, copies, side_tags).take());
+  all.in_cell.push_back(0);
   const Box<3> outer = box_of(all.surfaces[0].vertices);
   const auto crosses_outer = [&](const Box<3>& box) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -96,9 +98,16 @@ CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, const Image<3>& cop
         for (const SurfaceSource& surface : surfaces) {
           SurfaceSource copy = surface;
           for (Point<3>& vertex : copy.vertices) vertex = moved(vertex);
-          if (!crosses_outer(box_of(copy.vertices))) all.surfaces.push_back(std::move(copy));
+          if (crosses_outer(box_of(copy.vertices))) continue;
+          all.surfaces.push_back(std::move(copy));
+          all.in_cell.push_back(image == Image<3>{});
         }
+        // The surfaces around a point in an outermost copy may be left out.
+        bool outermost = false;
+        for (std::size_t k = 0; k < 3; ++k)
+          outermost = outermost || (copies[k] > 0 && std::abs(image[k]) == copies[k]);
         for (RegionPoint<3> point : region_points) {
+          if (outermost) break;
           point.point = moved(cell.in_cell(cell.rounded(point.point)));
           all.region_points.push_back(std::move(point));
         }

@@ -15,6 +15,7 @@ namespace pnpbs {
 
 struct CopiesOfSurfaces {
   std::vector<SurfaceSource> surfaces;
+  std::vector<char> in_cell;  // nonzero for surfaces as they were given
   std::vector<RegionPoint<3>> region_points;
   std::vector<FixedNode<3>> fixed_nodes;
 };

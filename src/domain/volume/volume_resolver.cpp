@@ -309,7 +309,8 @@ class Resolver {
     warn_of_tolerance(summary);
     const SurfaceEdges edges(surface_);
     tree_ = tree_of(surface_);
-    if (summary.rounds == 0) reject_crossings(surface_, tree_, filled_);  // They may have been left alone.
+    if (summary.rounds == 0)
+      reject_crossings(surface_, tree_, filled_);  // They may have been left alone.
     const SurfaceRegions regions(surface_, edges, tree_);
     if (contacts_ == Contacts::touching) require_attached(edges);
     find_solids_around(regions);

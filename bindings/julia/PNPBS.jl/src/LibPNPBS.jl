@@ -288,6 +288,11 @@ pnpbs_domain_set_repair(domain, resolution) =
     @ccall $(symbol(:pnpbs_domain_set_repair))(
         domain::pnpbs_domain, resolution::Cdouble)::pnpbs_status
 
+pnpbs_domain_set_periodic(domain, low, high, periodic, tags) =
+    @ccall $(symbol(:pnpbs_domain_set_periodic))(
+        domain::pnpbs_domain, low::Ptr{Cdouble}, high::Ptr{Cdouble}, periodic::Ptr{Int32},
+        tags::Ptr{Int32})::pnpbs_status
+
 pnpbs_domain_set_fragment(domain, overlap) =
     @ccall $(symbol(:pnpbs_domain_set_fragment))(
         domain::pnpbs_domain, overlap::Int32)::pnpbs_status

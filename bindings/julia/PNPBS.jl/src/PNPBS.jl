@@ -40,7 +40,7 @@ export add_polyline!, add_arc!, add_curve!, add_pslg!, add_hole!, add_region!, a
 export add_surface!, read_surface!, add_box!, add_ball!, add_cylinder!, add_level_set!
 export add_offset!
 export sphere_domain, sphere_points, sphere_degrees, sphere_radius
-export set_filled!, set_repair!, set_resurfaced!, set_fragment!
+export set_filled!, set_repair!, set_resurfaced!, set_fragment!, set_periodic!
 export tag_outline!, set_corner_angle!, set_snap!, simplify!, simplify_by_file!
 export read_msh!, file_dimension, set_role!, set_tag_name!, tag_names
 export read_poly!, parse_poly!, check_domain, bounds, measure, distances, shape_spacing, outline

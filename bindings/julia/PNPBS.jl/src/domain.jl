@@ -490,6 +490,42 @@ function set_fragment!(domain::Domain, overlap::Symbol = :last)
 end
 
 """
+    set_periodic!(domain, low, high, periodic = true; tags = nothing)
+
+Makes the domain a box that repeats itself along some axes. It has no boundary across these axes:
+bubbles on both sides of a seam act on each other. The other sides of the box are boundaries. Closed
+curves and surfaces are holes and cavities or, with the role `:inner` or as fragments, inclusions.
+They are given once, stand for all their copies, and may extend beyond a periodic side. The spacing
+is evaluated at points of the box only, and continued with its periods.
+
+Nodes lie in the box, `low <= x < high` along a periodic axis. Results have the images of nodes near
+the box as ghosts, on a single rank as well: an image has the id of its node, and its coordinates
+differ from those of the node by whole periods. Adjacency lists and elements refer to images, so an
+element at a seam has its true shape, and no element occurs twice.
+
+Coordinates along a periodic axis, and the period, are rounded to multiples of 2^-50 times the
+largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and inner curves
+in space. Not yet for a periodic domain, but `:error_unsupported`: files with elements, elements of
+second order, distributed meshes, Voronoi cells, particles, transfer, cracks, checkpoints and a
+spacing at nodes. [`run!`](@ref) and [`initialise!`](@ref) throw `:error_spacing` if a period is
+shorter than four spacings.
+
+`periodic` is true for all axes, or has a value for each axis. `tags` are those of the other sides:
+low x, high x, low y and so on; all are 1 without them.
+"""
+function set_periodic!(domain::Domain, low, high, periodic = true; tags = nothing)
+    dim = ndims(domain)
+    axes = periodic isa Bool ? fill(periodic, dim) : collect(Bool, periodic)
+    length(axes) == dim ||
+        throw(DimensionMismatch("periodic has $(length(axes)) values, expected $dim"))
+    check(domain.context,
+          LibPNPBS.pnpbs_domain_set_periodic(live(domain), as_point(low, dim, "low"),
+                                             as_point(high, dim, "high"), Int32.(axes),
+                                             as_tags(tags, 2 * dim, "tags")))
+    return domain
+end
+
+"""
     set_corner_angle!(domain, corner_angle)
 
 Sets the corner angle of the graphs of a domain in the plane ([`add_pslg!`](@ref),

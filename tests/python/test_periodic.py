@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests periodic domains in one process: the nodes and the elements fill the torus without a seam."""
+import unittest
+
+import numpy as np
+import pnpbs
+from pnpbs import PNPBSError, Status
+
+LOW, HIGH = np.array([-0.3, 0.2, 1.0]), np.array([0.7, 1.5, 1.9])
+
+
+class Torus:
+    """The results of a placement, with the images of nodes behind the nodes."""
+
+    def __init__(self, placement, low, high, periodic):
+        self.low, self.high = np.asarray(low, float), np.asarray(high, float)
+        self.periodic = np.asarray(periodic, bool)
+        nodes, ghosts = placement.nodes(), placement.ghosts()
+        self.dim, self.count = nodes.points.shape[1], len(nodes.ids)
+        self.points = np.vstack([nodes.points, ghosts.points])
+        self.spacing = np.concatenate([nodes.spacing, ghosts.spacing])
+        place = {number: k for k, number in enumerate(nodes.ids)}
+        self.node = np.array([place[number] for number in [*nodes.ids, *ghosts.ids]])
+        self.tags = nodes.tags
+        self.elements = placement.triangles() if self.dim == 2 else placement.tetrahedra()
+        self.adjacency = placement.adjacency()
+
+    def periods(self):
+        """Returns how many periods each node or image is away from its node."""
+        way = self.points - self.points[self.node]
+        return way / (self.high - self.low)
+
+    def measures(self):
+        x = self.points[self.elements]
+        edges = x[:, 1:] - x[:, :1]
+        return np.linalg.det(edges) / (2 if self.dim == 2 else 6)
+
+    def edges(self):
+        """Returns the edges of the elements, each once on the torus."""
+        k = self.dim + 1
+        pairs = np.vstack([self.elements[:, [a, b]] for a in range(k) for b in range(a)])
+        way = np.rint(self.periods()[pairs[:, 1]] - self.periods()[pairs[:, 0]]).astype(int)
+        a, b = self.node[pairs[:, 0]], self.node[pairs[:, 1]]
+        turn = (b < a) | ((a == b) & (way[:, 0] < 0))
+        a, b, way = np.where(turn, b, a), np.where(turn, a, b), np.where(turn[:, None], -way, way)
+        _, first = np.unique(np.column_stack([a, b, way]), axis=0, return_index=True)
+        return pairs[first]
+
+    def ratios(self, edges):
+        length = np.linalg.norm(self.points[edges[:, 1]] - self.points[edges[:, 0]], axis=1)
+        return length / self.spacing[edges].mean(axis=1)
+
+
+class Periodic(unittest.TestCase):
+    def setUp(self):
+        self.context = pnpbs.Context()
+        self.addCleanup(self.context.close)
+
+    def place(self, low, high, periodic, d, change=None, **options):
+        dim = len(low)
+        domain = pnpbs.Domain(self.context, dim).set_periodic(low, high, periodic)
+        if change:
+            change(domain)
+        placement = pnpbs.Placement(domain, **options).set_spacing(d)
+        placement.run()
+        placement.check()
+        torus = Torus(placement, low, high, np.broadcast_to(periodic, dim))
+        self.assert_valid(torus)
+        return domain, torus
+
+    def assert_valid(self, torus):
+        own = torus.points[: torus.count]
+        across = torus.periodic
+        self.assertTrue((own[:, across] >= torus.low[across]).all())
+        self.assertTrue((own[:, across] < torus.high[across]).all())
+        periods = torus.periods()
+        np.testing.assert_allclose(periods, np.rint(periods), atol=1e-12)
+        self.assertTrue((periods[:, ~across] == 0).all())
+        self.assertTrue((torus.measures() > 0).all())
+        self.assertTrue((np.abs(periods[torus.count :]).max(axis=1) > 0.5).all())
+
+    def test_constant_spacing_in_the_plane(self):
+        domain, torus = self.place(LOW[:2], HIGH[:2], True, 0.03)
+        self.assertAlmostEqual(domain.measure(), 1.3, 12)
+        self.assertAlmostEqual(torus.measures().sum(), 1.3, 10)
+        # Euler's formula on the torus: V - E + F = 0, and three edges for each two triangles
+        self.assertEqual(len(torus.elements), 2 * torus.count)
+        self.assertEqual(len(torus.edges()), 3 * torus.count)
+        offsets = torus.adjacency.offsets
+        degrees = np.bincount(torus.node[torus.edges()].ravel())
+        self.assertTrue((degrees == 6).all())
+        self.assertEqual(len(offsets), torus.count + 1)
+
+    def wave(self, shift=(0.0, 0.0, 0.0), finest=0.008, most=3.0):
+        def d(x):
+            turns = 2 * np.pi * (x - LOW[: x.shape[1]] - np.array(shift[: x.shape[1]])) / (
+                HIGH - LOW)[: x.shape[1]]
+            return finest * (1 + most * (1 - np.cos(turns)).mean(axis=1) / 2)
+
+        return d
+
+    def test_graded_spacing_has_no_seam(self):
+        _, torus = self.place(LOW[:2], HIGH[:2], True, self.wave())
+        edges = torus.edges()
+        self.assertEqual(len(torus.elements), 2 * torus.count)
+        seam = (edges >= torus.count).any(axis=1)
+        ratios = torus.ratios(edges)
+        self.assertGreater(seam.sum(), 100)
+        self.assertLess(abs(ratios[seam].mean() - ratios[~seam].mean()), 0.015)
+        self.assertLess(ratios[seam].max(), ratios[~seam].max() + 0.05)
+
+    def test_shifted_input_gives_the_same_statistics(self):
+        counts, means = [], []
+        for shift in [(0, 0), (0.37, 0.11), (0.61, 0.9)]:
+            _, torus = self.place(LOW[:2], HIGH[:2], True, self.wave(shift))
+            counts.append(torus.count)
+            means.append(torus.ratios(torus.edges()).mean())
+        self.assertLess(np.ptp(counts), 0.01 * np.mean(counts))
+        self.assertLess(np.ptp(means), 0.005)
+
+    def test_channel_with_walls(self):
+        domain, torus = self.place(LOW[:2], HIGH[:2], (True, False), 0.04)
+        on_walls = torus.tags > 0
+        y = torus.points[: torus.count][on_walls, 1]
+        self.assertTrue(((y == LOW[1]) | (y == HIGH[1])).all())
+        # V - E + F = 0 on the ring
+        self.assertEqual(len(torus.elements), 2 * torus.count - on_walls.sum())
+        self.assertAlmostEqual(torus.measures().sum(), domain.measure(), 10)
+
+    def test_sides_have_their_tags(self):
+        domain = pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1), (False, True), (3, 4, 8, 9))
+        placement = pnpbs.Placement(domain).set_spacing(0.1)
+        placement.run()
+        nodes = placement.nodes()
+        self.assertEqual(set(nodes.tags[nodes.points[:, 0] == 0]), {3})
+        self.assertEqual(set(nodes.tags[nodes.points[:, 0] == 1]), {4})
+
+    def test_hole_across_the_corner(self):
+        def hole(domain):
+            domain.add_arc((LOW[0], HIGH[1]), 0.3, tag=5)
+
+        domain, torus = self.place(LOW[:2], HIGH[:2], True, 0.03, hole)
+        self.assertAlmostEqual(domain.measure(), 1.3 - np.pi * 0.09, 6)
+        around = (torus.tags == 5).sum()
+        # V - E + F = -1 on the torus with a hole
+        self.assertEqual(len(torus.elements), 2 * torus.count - around + 2)
+        turn = 2 * np.pi / around
+        missing = 0.09 * (np.pi - np.sin(turn) * around / 2)
+        self.assertAlmostEqual(torus.measures().sum(), domain.measure() + missing, 3)
+
+    def test_inclusion_across_a_side(self):
+        turns = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+        circle = np.column_stack([HIGH[0] + 0.2 * np.cos(turns), 0.8 + 0.2 * np.sin(turns)])
+
+        def inclusion(domain):
+            domain.add_polyline(circle, role="inner", corner_angle=30, tags=7)
+            domain.add_region((HIGH[0] - 0.1, 0.8), 2)
+
+        domain = pnpbs.Domain(self.context).set_periodic(LOW[:2], HIGH[:2])
+        inclusion(domain)
+        placement = pnpbs.Placement(domain).set_spacing(0.03)
+        placement.run()
+        placement.check()
+        torus = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        self.assertAlmostEqual(torus.measures().sum(), 1.3, 10)
+        inside = torus.measures()[placement.element_tags() == 2].sum()
+        self.assertAlmostEqual(inside, np.pi * 0.04, 2)
+
+    def test_constant_spacing_in_space(self):
+        domain, torus = self.place(LOW, HIGH, True, 0.09)
+        self.assertAlmostEqual(domain.measure(), 1.17, 10)
+        self.assertAlmostEqual(torus.measures().sum(), 1.17, 10)
+        # Euler's formula on the torus: V - E + F - T = 0, and four faces for each two tetrahedra
+        self.assertEqual(len(torus.edges()) - torus.count, len(torus.elements))
+
+    def test_graded_spacing_in_space(self):
+        _, torus = self.place(LOW, HIGH, True, self.wave(finest=0.05, most=1.0))
+        self.assertAlmostEqual(torus.measures().sum(), 1.17, 9)
+        edges = torus.edges()
+        self.assertEqual(len(edges) - torus.count, len(torus.elements))
+        seam = (edges >= torus.count).any(axis=1)
+        ratios = torus.ratios(edges)
+        self.assertLess(abs(ratios[seam].mean() - ratios[~seam].mean()), 0.02)
+
+    def test_layer_in_space(self):
+        domain = pnpbs.Domain(self.context, 3).set_periodic(LOW, HIGH, (True, True, False))
+        placement = pnpbs.Placement(domain).set_spacing(0.09)
+        placement.run()
+        placement.check()
+        torus = Torus(placement, LOW, HIGH, (True, True, False))
+        self.assert_valid(torus)
+        self.assertAlmostEqual(torus.measures().sum(), 1.17, 10)
+        facets, _ = placement.boundary_triangles()
+        x = torus.points[facets]
+        areas = np.linalg.norm(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1) / 2
+        self.assertAlmostEqual(areas.sum(), 2 * 1.3, 10)
+
+    def test_cavity_across_a_corner_of_space(self):
+        def ball(domain):
+            domain.add_ball((LOW[0], HIGH[1], LOW[2] + 0.1), 0.3, 4)
+
+        domain, torus = self.place(LOW, HIGH, True, 0.08, ball)
+        volume = 1.17 - 4 / 3 * np.pi * 0.027
+        self.assertAlmostEqual(domain.measure(), volume, 4)
+        self.assertAlmostEqual(torus.measures().sum(), volume, 2)
+
+    def test_second_run_with_another_spacing(self):
+        domain = pnpbs.Domain(self.context).set_periodic(LOW[:2], HIGH[:2])
+        placement = pnpbs.Placement(domain).set_spacing(0.05)
+        placement.run()
+        placement.set_spacing(self.wave(finest=0.015))
+        placement.run()
+        placement.check()
+        torus = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        self.assert_valid(torus)
+        self.assertEqual(len(torus.elements), 2 * torus.count)
+
+    def assert_status(self, status, part, function, *arguments, **keywords):
+        with self.assertRaises(PNPBSError) as caught:
+            function(*arguments, **keywords)
+        self.assertEqual(caught.exception.status, status)
+        self.assertIn(part, str(caught.exception))
+
+    def test_bad_input(self):
+        domain = pnpbs.Domain(self.context)
+        wrong = Status.ERROR_ARGUMENT
+        self.assert_status(wrong, "low[1] is 2", domain.set_periodic, (0, 2), (1, 2))
+        self.assert_status(wrong, "no axis", domain.set_periodic, (0, 0), (1, 1), False)
+        domain.set_periodic((0, 0), (1, 1))
+        placement = pnpbs.Placement(domain).set_spacing(0.3)
+        self.assert_status(Status.ERROR_SPACING, "less than 4 spacings", placement.run)
+
+    def test_unsupported(self):
+        domain = pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1))
+        placement = pnpbs.Placement(domain).set_spacing(0.1)
+        placement.run()
+        for function, arguments in [
+            (placement.write, ("elements.vtu",)),
+            (placement.write_checkpoint, ("state.pnpbs",)),
+            (placement.set_spacing, (np.full(placement.node_count, 0.1),)),
+        ]:
+            self.assert_status(Status.ERROR_UNSUPPORTED, "periodic", function, *arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()
