@@ -18,6 +18,7 @@
 #include "level/node_digest.hpp"
 #include "level/reach.hpp"
 #include "level/rebalance.hpp"
+#include "level/volume/inner_facets.hpp"
 #include "level/volume/opposite_nodes.hpp"
 #include "level/volume/surface_level.hpp"
 #include "level/volume/thin_elements.hpp"
@@ -124,15 +125,58 @@ double room_on_surface(const Level<3>& level, std::int64_t i) {
   return room_on_thin_wall(level, before_repair(level.nodes, i), level.nodes.d(i));
 }
 
-// Returns the rules by which nodes move along surfaces. Nodes on inner surfaces do not move,
-// because the repair does not handle the triangles there. Nodes on thin walls may move little, so
+// The faces of the present elements that represent surfaces inside the body.
+class KeptFacets {
+ public:
+  explicit KeptFacets(const Level<3>& level) {
+    InnerFacets facets(level);
+    for (std::int64_t i = 0; i < level.nodes.count; ++i)
+      if (level.stars.size(i) > 0)
+        for (const InnerFacet& facet : facets.at(i)) facets_.push_back(sorted(facet.nodes));
+    std::ranges::sort(facets_);
+  }
+
+  // Returns whether each of these faces that a removed tetrahedron has is a face of a new one.
+  bool are_kept_by(const StarChange& change) const {
+    std::vector<Corners> kept;
+    for (const TetrahedronNodes& t : change.made) add_facets_of(t, kept);
+    std::ranges::sort(kept);
+    std::vector<Corners> before;
+    for (const TetrahedronNodes& t : change.gone) add_facets_of(t, before);
+    return std::ranges::all_of(
+        before, [&](const Corners& face) { return std::ranges::binary_search(kept, face); });
+  }
+
+ private:
+  using Corners = std::array<std::int64_t, 3>;
+
+  static Corners sorted(Corners nodes) {
+    std::ranges::sort(nodes);
+    return nodes;
+  }
+  void add_facets_of(const TetrahedronNodes& t, std::vector<Corners>& found) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Corners face = sorted({t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]});
+      if (std::ranges::binary_search(facets_, face)) found.push_back(face);
+    }
+  }
+
+  std::vector<Corners> facets_;  // in ascending order, as the indices of their nodes
+};
+
+// Whether nodes on surfaces inside the body may move along them.
+enum class OnInnerSurfaces { stay, move };
+
+// Returns the rules by which nodes move along surfaces. Nodes on thin walls may move little, so
 // that they stay opposite their partners. Nodes of a level set keep their distance from its
 // triangles on the way.
-AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input) {
-  const auto walk = [&level](std::int64_t i, const Point<3>& direction, double length) {
+AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& input,
+                                  OnInnerSurfaces inner) {
+  const bool inner_too = inner == OnInnerSurfaces::move;
+  const auto walk = [&level, inner_too](std::int64_t i, const Point<3>& direction, double length) {
     const LevelGeometry<3>& geometry = level.geometry;
     const AlongSurfaces::Place from{level.nodes.position(i), level.nodes.boundary_node(i)};
-    if (!geometry.bounds_domain(from.facet)) return from;
+    if (!inner_too && !geometry.bounds_domain(from.facet)) return from;
     const double way = room_on_surface(level, i);
     const SurfacePoint to = go_along_surface(level, i, direction, std::min(length, way));
     if (distance<3>(to.position, before_repair(level.nodes, i).position) > 2 * way) return from;
@@ -146,7 +190,11 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
   const auto rule = [&input](const std::array<std::int64_t, 4>& nodes, const Tetrahedron& corners) {
     return in_domain(input, nodes, corners);
   };
-  AlongSurfaces ways{walk, rule, {}};
+  AlongSurfaces ways{walk, rule, {}, {}};
+  if (inner_too && level.geometry.has_inner_surfaces())
+    ways.keeps_inner_facets = [facets = KeptFacets(level)](const StarChange& change) {
+      return facets.are_kept_by(change);
+    };
   if (!level.geometry.domain().level_sets().sets.empty())
     ways.settle = [&level](std::vector<AlongSurfaces::Place>& places) {
       settle_on_level_sets(level.geometry, places);
@@ -157,17 +205,18 @@ AlongSurfaces ways_along_surfaces(const Level<3>& level, const VolumeStarInput& 
 // Repairs elements with small angles, the worst first. Otherwise these would rarely be attempted
 // where nearly all elements have small angles. Afterwards the stars of the owned nodes are up to
 // date.
-void repair_slivers(Level<3>& level, double repair_below) {
+void repair_slivers(Level<3>& level, double repair_below,
+                    OnInnerSurfaces inner = OnInnerSurfaces::stay) {
   make_finish_stars(level, {method::kSliverRings,
                             method::kSliverReach + method::kSliverDrift + method::kSliverEdge});
   level.neighbourhood.release_lists();  // The repair needs the memory for changed stars.
   const SliverRule rule{repair_below};
   const KnownRegion<3> everywhere;
   const VolumeStarInput input = star_input(level, everywhere);
-  const AlongSurfaces along_surfaces = ways_along_surfaces(level, input);
   std::optional<SliverRepair> repair;
   collective_try(*level.comm, [&] {
-    repair.emplace(level.nodes, level.stars, rule, may_go(level), along_surfaces);
+    repair.emplace(level.nodes, level.stars, rule, may_go(level),
+                   ways_along_surfaces(level, input, inner));
   });
   for (const double below : {method::kFlatBelow, method::kThinBelow, rule.repair_below})
     if (below <= rule.repair_below) repair_rounds(level, *repair, rule, below);
@@ -219,7 +268,7 @@ std::optional<PopulationCounts> repair_thin_elements(Level<3>& level, const Stop
     counts.deleted += changes.counts.deleted;
     if (changes.thin == 0 || static_cast<double>(changes.thin) > method::kManyThin * nodes) break;
     if (stops()) return std::nullopt;
-    repair_slivers(level, method::kThinElement);
+    repair_slivers(level, method::kThinElement, OnInnerSurfaces::move);
   }
   return counts;
 }
@@ -241,7 +290,12 @@ FinishResults sweep_and_repair(Level<3>& level, std::int64_t sweeps, const StopT
   if (stops()) return stopped;
   if (sweeps > 0) balance_repairs(level);
   repair_slivers(level, level.settings.sliver_angle);
-  if (sweeps == 0) return {};
+  if (sweeps == 0) {
+    // Nodes that were inserted on inner surfaces may be in thin elements with others there.
+    if (level.geometry.has_inner_surfaces())
+      repair_slivers(level, method::kThinElement, OnInnerSurfaces::move);
+    return {};
+  }
   if (stops()) return stopped;
   const std::optional<PopulationCounts> counts = repair_thin_elements(level, stops);
   if (!counts) return stopped;

@@ -377,6 +377,8 @@ bool SliverRepair::try_place(SurfaceNodeMove& move, const AlongSurfaces::Place& 
   move.go_to(to.x, to.facet);
   if (!within_reach(i, move.change().made) || !may_help(move.change())) return false;
   if (!move.complete() || !helps(move.change())) return false;
+  if (along_surfaces_.keeps_inner_facets && !along_surfaces_.keeps_inner_facets(move.change()))
+    return false;
   attempt.success.push_back(move.change());
   return true;
 }

@@ -74,6 +74,9 @@ struct AlongSurfaces {
   // cannot be projected. Called once per round for all points of this rank, outside of parallel
   // regions. Null if walk() returns points on the surface.
   std::function<void(std::vector<Place>& places)> settle;
+  // Returns whether the change keeps the faces that represent surfaces inside the body. Null if no
+  // node on such a surface moves.
+  std::function<bool(const StarChange& change)> keeps_inner_facets;
 };
 
 // The repair of slivers, in rounds: draw(), on several ranks take(), move(), and on several ranks
