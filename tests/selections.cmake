@@ -75,4 +75,4 @@ set(PNPBS_TESTS_OF_nightly
     parallel_hunt.* parallel_invariance parallel_mpi_errors_2 parallel_soak_8 parallel_volume_conformity
     parallel_volume_invariance api_closing
     bench_bodies bench_compare bench_compare_bodies bench_loose_pieces bench_random_bodies bench_sliding
-    bench_space_scaling bench_spheres bench_studies)
+    bench_space_scaling bench_spheres bench_studies command_many_random_solids)
