@@ -8,6 +8,7 @@
  * of the work. With `run` the nodes are placed; the output then has the time of each phase, the
  * memory, and the nodes computed over those owned (`redundancy.*`). Messages, bytes and collective
  * calls are those of initialising or placing. `computed` is the processor time outside MPI.
+ * `memory.own` is the memory without the buffers in which MPI passes messages on a node.
  *
  * usage: decomposition CASE SCALE [run|rebalance] [key=value]...  with the cases of place_on_ranks
  *
@@ -60,6 +61,19 @@ static double on_a_core(void) {
   return (double)usage.ru_utime.tv_sec + 1e-6 * (double)usage.ru_utime.tv_usec;
 }
 
+/* Returns the bytes of shared memory that this process uses: buffers of MPI between the ranks of a
+ * node, which it keeps. 0 if the system does not count them. */
+static double shared_memory(void) {
+  FILE* const file = fopen("/proc/self/status", "r");
+  char line[256];
+  long kilobytes = 0;
+  if (!file) return 0;
+  while (fgets(line, sizeof line, file))
+    if (sscanf(line, "RssShmem: %ld", &kilobytes) == 1) break;
+  fclose(file);
+  return 1024.0 * (double)kilobytes;
+}
+
 static double sum_of(double mine) {
   double sum;
   MPI_Allreduce(&mine, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
@@ -99,7 +113,7 @@ int main(int argc, char** argv) {
   struct case_spacing spacing;
   struct mpi_counts asked;
   int64_t count;
-  double owned, ghosts, bytes, empty, core_seconds, all_seconds;
+  double owned, ghosts, bytes, empty, shared, core_seconds, all_seconds;
   size_t p;
   int run, rebalance, first, right;
   MPI_Init(&argc, &argv);
@@ -118,6 +132,7 @@ int main(int argc, char** argv) {
   check(pnpbs_context_create_mpi(MPI_COMM_WORLD, &context), "context");
   placement = case_placement(context, argv[1], atof(argv[2]), argc - first, argv + first, &spacing);
   empty = integer("memory.peak_bytes");
+  shared = shared_memory();
   mpi_counts = (struct mpi_counts){0, 0, 0, 0, 0};
   all_seconds = on_a_core_in_all();
   core_seconds = on_a_core();
@@ -140,6 +155,7 @@ int main(int argc, char** argv) {
   tell_over_ranks("computed", all_seconds - asked.seconds); /* with one thread */
   tell_over_ranks("memory.empty", empty);
   tell_over_ranks("memory", integer("memory.peak_bytes"));
+  tell_over_ranks("memory.own", integer("memory.peak_bytes") - (shared_memory() - shared));
   tell_over_ranks("messages", asked.messages);
   tell_over_ranks("sent", asked.sent);
   tell_over_ranks("collectives", asked.collectives);

@@ -167,17 +167,21 @@ def ghosts_table(pairs):
 def memory_table(pairs):
     rows = ["### Memory", "",
             *table_head(["cube", "ranks", "nodes", "peak of a rank: mean / most, MiB",
-                         "of which empty process, MiB", "bytes per node of the rank that has most",
+                         "without buffers of MPI on a node", "empty process, MiB",
+                         "bytes per node of the rank that has most",
                          "on one rank", "most over 1.3 times its share"])]
     for case, line, alone in cases(pairs):
         empty = line["memory.empty.mean"]
-        bound = TARGET_MEMORY * (alone["memory.largest"] - alone["memory.empty.mean"]) / line["ranks"]
+        own = line["memory.own.largest"] - empty
+        bound = TARGET_MEMORY * (alone["memory.own.largest"] - alone["memory.empty.mean"]) / line["ranks"]
         rows.append(table_row([
             case, f"{line['ranks']:.0f}", grouped(line["nodes"]),
             f"{line['memory.mean'] / MIB:.0f} / {line['memory.largest'] / MIB:.0f}",
-            f"{empty / MIB:.0f}", grouped((line["memory.largest"] - empty) / line["owned.largest"]),
-            grouped((alone["memory.largest"] - alone["memory.empty.mean"]) / alone["nodes"]),
-            f"{(line['memory.largest'] - empty) / bound:.2f}"]))
+            f"{line['memory.own.mean'] / MIB:.0f} / {line['memory.own.largest'] / MIB:.0f}",
+            f"{empty / MIB:.0f}",
+            grouped(own / line["owned.largest"]),
+            grouped((alone["memory.own.largest"] - alone["memory.empty.mean"]) / alone["nodes"]),
+            f"{own / bound:.2f}"]))
     return rows
 
 

@@ -47,7 +47,9 @@ over_ranks("sent", 80 * 52 * ghosts)
 over_ranks("collectives", 2000)
 over_ranks("gathered", 1000 * ranks)
 over_ranks("memory.empty", 2e7)
-over_ranks("memory", 2e7 + 500 * owned * (1 if ranks == 1 else 2.6))
+own = 2e7 + 500 * owned * (1 if ranks == 1 else 2.6)
+over_ranks("memory", own + 3e6)
+over_ranks("memory.own", own)
 over_ranks("computed", 1e-5 * owned * growth({SECONDS}))
 over_ranks("total", 4e-5 * owned)  # a machine that is not idle
 for phase in "boundary tree fill spacing population conformity rest".split():
@@ -130,7 +132,7 @@ class Study(unittest.TestCase):
         self.assertEqual(held[8], "300")
         self.assertEqual(held[10], "80")
         self.assertEqual(held[4], f"{4000 * ((1 + 6.3 / side) ** 3 - 1):,.0f}".replace(",", " "))
-        self.assertEqual(tables["Memory"][1][5:], ["1 300", "500", "2.00"])
+        self.assertEqual(tables["Memory"][1][6:], ["1 300", "500", "2.00"])
         model = tables["Parallel efficiency in space by the model, seconds of a whole run"][2]
         side = (0.62 * 44000) ** (1 / 3)
         own, rise = 0.44, lambda layer: (1 + 2 * layer * 0.75 / side) ** 3 - 1
