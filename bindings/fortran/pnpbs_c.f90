@@ -450,6 +450,17 @@ module pnpbs_c
       integer(c_int) :: c_domain_set_fragment
     end function
 
+    function c_domain_set_periodic(domain, low, high, periodic, tags) bind(C, &
+      name="pnpbs_domain_set_periodic")
+      import
+      implicit none
+      type(c_ptr), value :: domain
+      real(c_double), intent(in) :: low(*), high(*)
+      integer(c_int32_t), intent(in) :: periodic(*)
+      type(c_ptr), value :: tags ! const int32_t *
+      integer(c_int) :: c_domain_set_periodic
+    end function
+
     function c_domain_add_polyline(domain, role, closed, n, coordinates, tags, corner_angle) &
       bind(C, name="pnpbs_domain_add_polyline")
       import
