@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,12 @@ inline constexpr double kFarAway = 1e100;
 // The geometry that a node is bound to, which restricts its motion: none, a point, a curve or a
 // surface.
 enum class Carrier : std::int8_t { free, fixed, curve, surface };
+
+// Returns the boundary_node of a node, for its present one `on`, where another copy of a periodic
+// domain's cell is seen as the cell.
+template <int Dim>
+using BoundarySeenFrom =
+    std::function<std::int32_t(const Image<Dim>& image, Carrier carrier, std::int32_t on)>;
 
 // The owned nodes and ghosts of a rank.
 template <int Dim>

@@ -65,6 +65,7 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
   collective_try(comm, [&] {
     const std::vector<int>& neighbours = tree.halo(hops, settings).neighbours();
     halo_.start(comm, tree.distribution().images(), neighbours);
+    if (halo_.images().cell().any()) boundary_seen_from_ = boundary_seen_from(tree);
     outgoing.resize(neighbours.size());
   });
   const Halo& halo = tree.halo(hops, settings);

@@ -58,7 +58,8 @@ class Ghosts {
              const std::vector<Box<Dim>>& boxes, Nodes<Dim>& nodes, const Buckets<Dim>& buckets);
 
   // Sends the records news_of(i) of these owned nodes to the ranks that have them as ghosts. A
-  // record has a function translate(to) for its positions and ids in a periodic domain.
+  // record has a function translate(to, boundary_seen_from) for its positions, ids and facets in a
+  // periodic domain.
   // Returns the records from other ranks. All ranks must call it, and if one rank throws, all ranks
   // throw.
   template <class Record, class NewsOf>
@@ -70,7 +71,7 @@ class Ghosts {
       halo_.for_ranks_with(nodes, i, [&](int number) {
         const Translation<Dim> to = halo_.images().translation_to(number);
         for (Record record : news) {
-          if (to.cell.any()) record.translate(to);
+          if (to.cell.any()) record.translate(to, boundary_seen_from_);
           pack(outgoing.to(halo_.images().rank(number)), record);
         }
       });
@@ -116,7 +117,8 @@ class Ghosts {
                                          const Buckets<Dim>& buckets);
 
   HaloExchange<Dim> halo_;
-  int hops_ = 0;  // depth of the ghosts; 0: they must be selected again
+  BoundarySeenFrom<Dim> boundary_seen_from_;  // in a periodic domain
+  int hops_ = 0;                              // depth of the ghosts; 0: they must be selected again
   std::int64_t steps_since_choice_ = 0;
   std::int64_t exact_at_ = -1;  // stamp of the positions for which ghosts are exact
 };

@@ -13,10 +13,6 @@
 namespace pnpbs {
 
 template <int Dim>
-using BoundarySeenFrom =
-    std::function<std::int32_t(const Image<Dim>& image, Carrier carrier, std::int32_t on)>;
-
-template <int Dim>
 struct PackedNode {
   std::int64_t id;
   Point<Dim> x, v, reference;

@@ -39,7 +39,7 @@ struct Bid {
   bool beats(const Bid& other) const {
     return defect > other.defect || (defect == other.defect && id > other.id);
   }
-  void translate(const Translation<Dim>& by) {
+  void translate(const Translation<Dim>& by, const BoundarySeenFrom<Dim>&) {
     id = by.id(id);
     place = by(place);
   }

@@ -13,14 +13,8 @@ namespace pnpbs {
 
 namespace {
 
-// Distance up to which a node depends on others at once, and the shortest period. [d]
-constexpr double kReach = 16;
-constexpr double kLeastPeriod = 4;
-
-struct LargestSpacing {
-  double d;
-  int axis;  // the shortest period
-};
+constexpr double kReach = 16;       // distance up to which a node depends on others at once [d]
+constexpr double kLeastPeriod = 4;  // [d]
 
 // Returns the largest of some samples of d in the cell.
 template <int Dim>
@@ -40,6 +34,7 @@ double largest_spacing(const PeriodicCell<Dim>& cell, double measure, const Spac
   return *std::ranges::max_element(d);
 }
 
+// Returns the periodic axis with the shortest period.
 template <int Dim>
 int shortest_axis(const PeriodicCell<Dim>& cell) {
   int shortest = -1;

@@ -10,8 +10,8 @@
 namespace pnpbs {
 
 // Returns the domain itself, or for a periodic domain one with as many copies of its cell as nodes
-// of this spacing need around them. Throws Error(ErrorKind::spacing) if a period is less than
-// kLeastPeriod spacings long.
+// of this spacing need around them. Throws Error(ErrorKind::spacing) if a period is less than four
+// spacings long.
 // Collective.
 template <int Dim>
 std::shared_ptr<const Domain<Dim>> with_copies(const std::shared_ptr<const Domain<Dim>>& domain,

@@ -38,6 +38,7 @@ static const double xyz[12] = {0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1, 0};
 static const int64_t faces[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
 static const int64_t grid_size[2] = {1, 2};
 static const double grid[6] = {0.5, 0.5, 1, 1, 0.2, 0.3}; /* origin, step and values */
+static const int32_t periodic[3] = {1, 0, 1};
 static cone a_cone = {0.1, 0, 0, 0};
 
 static int32_t circle(int64_t n, int32_t dim, const double* t, double* points, void* user) {
@@ -100,7 +101,7 @@ static int32_t no_stop(double fraction, int64_t step, int64_t nodes, double spee
   X(domain_set_repair, (handle, 0.0))                                                 \
   X(domain_set_resurfaced, (handle, 0.0))                                             \
   X(domain_set_fragment, (handle, 0))                                                 \
-  X(domain_set_periodic, (handle, box, box + 3, periodic, NULL))                      \
+  X(domain_set_periodic, (handle, xyz, xyz + 3, periodic, NULL))                      \
   X(domain_check, (handle))                                                           \
   X(domain_dimension, (handle, out.small + 2))                                        \
   X(domain_bounds, (handle, out.reals + 1, out.reals + 3))                            \

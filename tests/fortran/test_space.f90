@@ -98,6 +98,13 @@ contains
     call domain%set_fragment(PNPBS_OVERLAP_OWN)
     call expect(abs(volume(domain) - (2 - 0.125d0) / 6) < 1d-15, 'two tetrahedra that overlap')
     call domain%destroy
+    ! A tetrahedron is a cavity of a layer; half of it lies beyond a periodic side.
+    call domain%create(context, 3)
+    call domain%add_surface(PNPBS_BOUNDARY, vertices, faces)
+    call domain%set_periodic([0.5d0, 0d0, -1d0], [2.5d0, 2d0, 2d0], [.true., .true., .false.], &
+                             [1, 2, 3, 4, 5, 6])
+    call expect(abs(volume(domain) - (12 - 1d0 / 6)) < 1d-14, 'a layer with a cavity')
+    call domain%destroy
     call domain%create(context, 3)
     call domain%add_surface(PNPBS_BOUNDARY, vertices, faces, [1, 2, 3, 4], 30d0)
     call domain%add_surface(PNPBS_INNER, 0.25d0 * vertices + 0.1d0, faces)

@@ -25,7 +25,7 @@ struct SamePiece {
 struct NamedNode {
   std::int64_t id, piece;
 
-  void translate(const Translation<3>& by) { id = by.id(id); }
+  void translate(const Translation<3>& by, const BoundarySeenFrom<3>&) { id = by.id(id); }
 };
 
 // The number of nodes that one rank has of a piece.

@@ -40,9 +40,10 @@ struct ChangedTetrahedron {
   std::int32_t on;                      // new facet of the moved node, or -1
   std::int32_t made;                    // 1: created, 0: removed
 
-  void translate(const Translation<3>& by) {
+  void translate(const Translation<3>& by, const BoundarySeenFrom<3>& boundary_seen_from) {
     node = by.id(node);
     x = by(x);
+    on = boundary_seen_from(by.image, Carrier::surface, on);
     for (std::int64_t& corner : corners) corner = by.id(corner);
   }
 };
@@ -53,7 +54,7 @@ struct SliverDraw {
   std::array<std::int64_t, 4> sliver;  // ids of its corners, ascending
   std::int64_t node;                   // id
 
-  void translate(const Translation<3>& by) {
+  void translate(const Translation<3>& by, const BoundarySeenFrom<3>&) {
     for (std::int64_t& corner : sliver) corner = by.id(corner);
     node = by.id(node);
   }

@@ -85,6 +85,11 @@ end
         @test fails(() -> measure(both), :error_domain, "set_fragment")
         @test measure(set_fragment!(both, :own)) ≈ (2 - 0.125) / 6
         @test_throws ArgumentError set_fragment!(both, :all)
+        # A tetrahedron is a cavity of a layer; half of it lies beyond a periodic side.
+        layer = add_surface!(Domain(context; dim = 3), VERTICES, FACES)
+        set_periodic!(layer, (0.5, 0, -1), (2.5, 2, 2), (true, true, false); tags = 1:6)
+        @test measure(layer) ≈ 12 - 1 / 6
+        @test_throws DimensionMismatch set_periodic!(layer, (0, 0, 0), (1, 1, 1), (true, false))
         add_hole!(body, (0.15, 0.15, 0.15))
         @test measure(body) ≈ (1 - 0.25^3) / 6
         mktempdir() do folder
