@@ -385,7 +385,8 @@ PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t ov
  *  near the box as ghosts (pnpbs_placement_get_ghosts), on a single rank as well: an image has the
  *  id of its node, and its coordinates differ from those of the node by whole periods. Adjacency
  *  lists and elements refer to images, so an element at a seam has its true shape, and no element
- *  occurs twice. pnpbs_exchange and sums over ghosts treat images like other ghosts.
+ *  occurs twice. Updates of ghosts and the exchange pattern (pnpbs_placement_get_exchange) include
+ *  images, with messages of a rank to itself.
  *
  *  Coordinates along a periodic axis are multiples of 2^-50 times the largest coordinate of an
  *  image, and so is the period, which is rounded to it. So the node set does not depend on the

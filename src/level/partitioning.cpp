@@ -114,7 +114,7 @@ Distribution<Dim> redistributed(const LevelTree<Dim>& tree, const Settings& sett
   PartitionCells<Dim> cells = cells_of_equal_work(tree, work, rare_work);
   std::vector<std::int32_t> owner =
       keep_numbers(tree, cells, cut_on_first_rank(comm, settings, cells), work);
-  return Distribution<Dim>(std::move(cells), std::move(owner), comm);
+  return Distribution<Dim>(std::move(cells), std::move(owner), comm.rank(), comm.size());
 }
 
 template std::vector<std::int64_t> expected_work(const SizedTree<2>&);

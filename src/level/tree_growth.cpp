@@ -69,7 +69,7 @@ void LevelTree<Dim>::grow_part(const Settings& settings, const LevelTree<Dim>* l
   PartitionCells<Dim> cells = cells_of_equal_work(*this, expected_work(map_));
   std::vector<std::int32_t> owner = like ? cut_like(comm_, settings, like->distribution_, cells)
                                          : cut_on_first_rank(comm_, settings, cells);
-  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_);
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank(), comm_.size());
   grow_own_part(settings);
 }
 
@@ -78,7 +78,7 @@ template <int Dim>
 void LevelTree<Dim>::take_rough_cells(const Settings& settings) {
   PartitionCells<Dim> cells(geometry_.tree_bounds(), rough_cells(settings));
   std::vector<std::int32_t> owner = cut_morton_order(cells.work(), comm_.size());
-  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_);
+  distribution_ = Distribution<Dim>(std::move(cells), std::move(owner), comm_.rank(), comm_.size());
 }
 
 // Returns large cells with the work that samples of d imply. They are the same on every rank.

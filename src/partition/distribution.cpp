@@ -17,12 +17,12 @@ namespace pnpbs {
 
 template <int Dim>
 Distribution<Dim>::Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner,
-                                const Communicator& comm)
+                                int rank, int ranks)
     : cells_(std::move(cells)),
-      images_(cells_.tree().periodic_cell(), comm.size()),
+      images_(cells_.tree().periodic_cell(), ranks),
       owner_(std::move(owner)),
-      rank_(comm.rank()),
-      ranks_(comm.size()) {
+      rank_(rank),
+      ranks_(ranks) {
   if (!images_.cell().any()) return;
   for (std::int32_t c = 0; c < cells_.count(); ++c)
     if (const Image<Dim> image = cells_.image_of(c); image != Image<Dim>{})

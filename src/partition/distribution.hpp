@@ -52,8 +52,7 @@ class Distribution {
  public:
   Distribution() = default;  // a single rank, which owns all cells
   // `owner` has the ranks of cells in the periodic cell, if there is one; those of images follow.
-  Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner,
-               const Communicator& comm);
+  Distribution(PartitionCells<Dim> cells, std::vector<std::int32_t> owner, int rank, int ranks);
 
   // Returns the same cells and owners without a refined tree.
   Distribution without_leaves() const;

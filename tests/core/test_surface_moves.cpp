@@ -126,7 +126,7 @@ struct Pierced {
       for (std::size_t k = 0; k < 3; ++k) x[k] += length / whole * way[k];
       return pnpbs::AlongSurfaces::Place{x, 7};
     };
-    return {walk, rule(), {}};
+    return {walk, rule(), {}, {}};
   }
 
   // Counts slivers with a node on a side, by the current stars.

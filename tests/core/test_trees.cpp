@@ -181,7 +181,7 @@ void expect_links_of_own_leaves() {
     reach.push_back(pnpbs::kRoomForGrowth * kRadius * max);
   }
   const auto graph = std::make_shared<const pnpbs::LeafGraph<Dim>>(b.tree, std::move(reach));
-  pnpbs::Distribution<Dim> distribution({unit_box<Dim>(), cells}, std::move(owner), kRank);
+  pnpbs::Distribution<Dim> distribution({unit_box<Dim>(), cells}, std::move(owner), kRank, kRanks);
   distribution.take_leaves(&b.tree, std::vector<char>(cells.size(), 1));
   distribution.link_leaves(graph);
   ck_assert(!distribution.halo(kHops, 1).neighbours().empty());
@@ -321,8 +321,8 @@ void expect_cells_near_own(const pnpbs::PartitionCells<Dim>& cells, int rank,
              gap_between<Dim>(box(own), box(c)) <= std::max(way(own), way(c));
     expected.push_back(near);
   }
-  quick_assert(pnpbs::Distribution<Dim>(cells, owner, rank).cells_near_own(hops, reach) ==
-               expected);
+  const pnpbs::Distribution<Dim> distribution(cells, owner, rank, rank + 1);
+  quick_assert(distribution.cells_near_own(hops, reach) == expected);
 }
 
 template <int Dim>

@@ -57,9 +57,9 @@ class BoxNodes {
   void exchange(int hops) {
     if (comm_->size() == 1) return;
     const pnpbs::Halo& halo = this->halo(hops);
-    plan_.start(*comm_, halo.neighbours());
+    plan_.start(*comm_, {}, halo.neighbours());
     std::vector<pnpbs::Bytes> outgoing(halo.neighbours().size());
-    const pnpbs::NodeExchange<3> travel{tree_, distribution_, halo, comm_->rank(), plan_};
+    const pnpbs::NodeExchange<3> travel{tree_, distribution_, halo, comm_->rank(), plan_, {}};
     const auto known_leaf = [this](std::int64_t i) {
       return buckets_.knows(i) ? buckets_.bucket_of(i) : -1;
     };
@@ -75,7 +75,7 @@ class BoxNodes {
   void update_ghosts() {
     if (comm_->size() == 1) return;
     plan_.prepare_updates();
-    plan_.update(nodes_);
+    plan_.update(nodes_, {});
   }
 
   const pnpbs::Halo& halo(int hops) { return distribution_.halo(hops, 1 / pnpbs::kRoomForGrowth); }

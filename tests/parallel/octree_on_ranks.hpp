@@ -25,8 +25,9 @@ using Function = std::function<double(const Point<3>& x)>;
 // Returns a tree in which no leaf is wider than `width` at its centre.
 inline BackgroundTree<3> refined_to(const Function& width) {
   BackgroundTree<3> tree;
-  tree.build({{0, 0, 0}, {1, 1, 1}}, [&](const BackgroundTree<3>& grown, std::int32_t first,
-                                         std::int32_t last, std::vector<char>& split) {
+  tree.build(pnpbs::Box<3>{{0, 0, 0}, {1, 1, 1}}, [&](const BackgroundTree<3>& grown,
+                                                      std::int32_t first, std::int32_t last,
+                                                      std::vector<char>& split) {
     for (std::int32_t c = first; c < last; ++c)
       split[static_cast<std::size_t>(c - first)] = grown.cell_side(c) > width(grown.cell_centre(c));
   });
@@ -81,10 +82,10 @@ inline std::vector<pnpbs::PartitionCell<3>> equal_cells(const pnpbs::Communicato
 inline pnpbs::Distribution<3> distributed(const pnpbs::Communicator& comm,
                                           const BackgroundTree<3>& tree,
                                           const std::vector<double>& d, double radius) {
-  pnpbs::PartitionCells<3> cells({{0, 0, 0}, {1, 1, 1}}, equal_cells(comm, tree, d));
+  pnpbs::PartitionCells<3> cells(pnpbs::Box<3>{{0, 0, 0}, {1, 1, 1}}, equal_cells(comm, tree, d));
   std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, comm.size(), 1);
   const std::vector<char> all(static_cast<std::size_t>(cells.count()), 1);
-  pnpbs::Distribution<3> distribution(std::move(cells), std::move(owner), comm.rank());
+  pnpbs::Distribution<3> distribution(std::move(cells), std::move(owner), comm.rank(), comm.size());
   distribution.take_leaves(&tree, all);
   std::vector<double> reach;
   for (const double leaf_d : d) reach.push_back(pnpbs::kRoomForGrowth * radius * leaf_d);

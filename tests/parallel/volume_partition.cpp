@@ -193,7 +193,7 @@ void check_cut_with_rare_work(std::vector<PartitionCell<3>> list) {
     if (cell.depth > 0 && cell.index[0] < half && cell.index[1] < half && cell.index[2] < half)
       cell.rare_work = cell.work / 10;
   }
-  const PartitionCells<3> cells({{0, 0, 0}, {1, 1, 1}}, list);
+  const PartitionCells<3> cells(pnpbs::Box<3>{{0, 0, 0}, {1, 1, 1}}, list);
   const std::vector<std::int32_t> owner = pnpbs::cut_by_metis(cells, ranks, 1);
   const double often = pnpbs::imbalance(owner, cells.work(), ranks),
                rare = pnpbs::imbalance(owner, cells.rare_work(), ranks);
@@ -206,7 +206,7 @@ void check_partition() {
   const std::vector<double> d = octree::max_spacings(tree, spacing);
   const std::vector<PartitionCell<3>> list = octree::equal_cells(*comm, tree, d);
   expect(comm->same_on_all(hash_of_cells(list)), "the same cells on all ranks");
-  const PartitionCells<3> cells({{0, 0, 0}, {1, 1, 1}}, list);
+  const PartitionCells<3> cells(pnpbs::Box<3>{{0, 0, 0}, {1, 1, 1}}, list);
   check_tiling(list, cells);
   const std::int64_t max = check_work(tree, d, cells);
   const pnpbs::CellGraph graph = pnpbs::cell_graph(cells);
