@@ -114,7 +114,7 @@ class PeriodicCell {
   double step_ = 0;
 };
 
-// What changes where another copy of the cell takes the place of the cell: positions and ids.
+// The change of positions and ids where another copy of the cell takes the place of the cell.
 template <int Dim>
 struct Translation {
   const PeriodicCell<Dim>& cell;

@@ -149,7 +149,7 @@ void VolumeResultCheck::check_boundary() const {
 void VolumeResultCheck::check_volume(bool fills) const {
   const ElementMeasure measure = measure_of_elements(p_);
   if (!(measure.domain > measure.rounding)) return;  // too thin to be measured
-  // What the boundary of a periodic domain encloses follows from it up to the volume of the cell.
+  // The boundary of a periodic domain determines the volume only up to that of the cell.
   if (!nodes_.cell.any() && std::fabs(measure.elements - measure.enclosed) > measure.rounding)
     fail_check("the tetrahedra have the volume " + number_text(measure.elements) +
                ", their boundary encloses " + number_text(measure.enclosed));

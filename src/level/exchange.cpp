@@ -56,7 +56,7 @@ void update_ghosts(Level<Dim>& level) {
 template <int Dim>
 void scatter_to_owners(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   if (!level.distributed()) return;
-  for (IncomingNode<Dim>& node : incoming) node.position = level.nodes.cell.in_cell(node.position);
+  for (IncomingNode<Dim>& node : incoming) put_in_cell(level, node);
   const auto owner_of = [&](const IncomingNode<Dim>& node) {
     return level.tree->owner_at(node.position);
   };

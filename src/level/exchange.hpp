@@ -26,6 +26,18 @@ void exchange_for_steps(Level<Dim>& level, std::exception_ptr& failure);
 template <int Dim>
 void update_ghosts(Level<Dim>& level);
 
+// Replaces a node of a periodic domain by its image in the cell.
+template <int Dim>
+void put_in_cell(const Level<Dim>& level, IncomingNode<Dim>& node) {
+  const PeriodicCell<Dim>& cell = level.nodes.cell;
+  if (!cell.any()) return;
+  const Point<Dim> x = cell.rounded(node.position);
+  const Image<Dim> image = cell.image_of(x);
+  node.position = cell.seen_from(image, x);
+  if constexpr (Dim == 3)
+    node.boundary_node = level.geometry.boundary_seen_from(image, node.carrier, node.boundary_node);
+}
+
 // Migrates each incoming node to the rank that owns its position. Few nodes change their rank. All
 // ranks must call it, and if one rank throws, all ranks throw.
 template <int Dim>

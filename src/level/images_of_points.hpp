@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points of the copies of a periodic domain are images of each other.
+// Finds the points of the copies of a periodic domain that are images of each other.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace pnpbs {
 
-// The points are nodes of the boundary or centroids of its facets. Those of different copies were
-// computed separately and differ from exact images by rounding errors.
+// The points are nodes of the boundary or centroids of its facets. Points of different copies were
+// computed separately, and differ from exact images by rounding errors.
 template <int Dim>
 class ImagesOfPoints {
  public:

@@ -32,7 +32,7 @@ template <int Dim>
 void find_leaves(const Level<Dim>& level, IncomingNodes<Dim>& incoming) {
   for_each("pnpbs::find_leaves", static_cast<std::int64_t>(incoming.size()), [&](std::int64_t k) {
     IncomingNode<Dim>& node = incoming[static_cast<std::size_t>(k)];
-    node.position = level.nodes.cell.in_cell(level.nodes.cell.rounded(node.position));
+    put_in_cell(level, node);
     node.leaf = node.is_inner() ? level.tree->tree().leaf_at(node.position) : -1;
   });
 }

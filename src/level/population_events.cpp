@@ -45,9 +45,9 @@ Point<2> place_beside(const Level<2>& level, std::int64_t i) {
   return level.nodes.cell.rounded(free_place<2>(level.nodes, level.lists(), i));
 }
 Point<3> place_beside(const Level<3>& level, std::int64_t i) {
-  return level.nodes.moving == Carrier::surface
-             ? free_place_on_surface(level, i)
-             : level.nodes.cell.rounded(free_place<3>(level.nodes, level.lists(), i));
+  return level.nodes.cell.rounded(level.nodes.moving == Carrier::surface
+                                      ? free_place_on_surface(level, i)
+                                      : free_place<3>(level.nodes, level.lists(), i));
 }
 
 // Finds the facets that new bubbles lie on, while the indices of their parents are valid.

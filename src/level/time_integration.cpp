@@ -97,7 +97,7 @@ void TimeIntegration<Dim>::hold_off_boundary(std::int64_t i, Nodes<Dim>& nodes,
                                              const LevelGeometry<Dim>& geometry,
                                              const Settings& settings) {
   const Point<Dim> from = nodes.position(i), to = point_at<Dim>(next_, i),
-                   kept = near_boundary.hold_off(i, nodes, map, geometry, to);
+                   kept = nodes.cell.rounded(near_boundary.hold_off(i, nodes, map, geometry, to));
   for (int k = 0; k < Dim; ++k) {
     if (kept[k] != to[k]) nodes.v[k](i) = (kept[k] - from[k]) / settings.motion.dt;
     next_[k](i) = kept[k];

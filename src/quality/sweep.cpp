@@ -59,7 +59,8 @@ void propose_move(const Nodes<2>& nodes, const NearEdges& near_edges, const Size
   if (!near_edges.any(i)) return;
   const ClearPosition<2> kept =
       clear_position(map, near_edges.edges_of(i), x, point_at<2>(proposed, i), nodes.d(i));
-  for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? kept.position[k] : x[k];
+  const Point<2> clear = nodes.cell.rounded(kept.position);
+  for (int k = 0; k < 2; ++k) proposed[k](i) = kept.clear ? clear[k] : x[k];
 }
 
 void propose_current_position(const Nodes<2>& nodes, std::int64_t i, Field<2>& proposed) {

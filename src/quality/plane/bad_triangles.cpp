@@ -85,7 +85,7 @@ Point<2> BadTriangleRepair::allowed_place(std::int64_t i, const Point<2>& x) con
   if (!near_edges_.any(i)) return x;
   const ClearPosition<2> kept =
       clear_position(map_, near_edges_.edges_of(i), nodes_.position(i), x, nodes_.d(i));
-  return kept.clear ? kept.position : nodes_.position(i);
+  return kept.clear ? nodes_.cell.rounded(kept.position) : nodes_.position(i);
 }
 
 // Searches for the position of the candidate that improves its worst triangle most, at ever smaller
