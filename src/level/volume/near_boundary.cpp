@@ -105,8 +105,8 @@ void NearBoundary<3>::add(const Nodes<3>& nodes, const Buckets<3>& buckets, cons
   });
 }
 
-// Returns the distance of node i from the nearest facet, or a lower bound of it where it exceeds
-// the clearance of nodes (a surface node: from the nearest feature edge). Few leaves are near
+// Returns the distance of node i from the nearest facet, or a lower bound of it that exceeds d
+// where the distance does (a surface node: from the nearest feature edge). Few leaves are near
 // facets; for these the index of the domain is searched.
 double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buckets<3>& buckets,
                                const SizedTree<3>& map, const LevelGeometry<3>& geometry) const {
@@ -121,8 +121,7 @@ double NearBoundary<3>::gap_of(std::int64_t i, const Nodes<3>& nodes, const Buck
   const bool in_bucket = map.tree().fine_box_holds(map.tree().fine_box(bucket), x);
   const std::int32_t leaf = in_bucket ? bucket : map.tree().leaf_at(x);
   if (leaf_is_clear(leaf) && reach <= near_.reach[static_cast<std::size_t>(leaf)]) return kFarAway;
-  const double gap =
-      geometry.domain().index().least_clearance(x, method::kVolumeClearance * nodes.d(i), reach);
+  const double gap = geometry.domain().index().least_clearance(x, nodes.d(i), reach);
   return gap < reach ? gap : kFarAway;
 }
 

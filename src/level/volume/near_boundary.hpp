@@ -75,7 +75,7 @@ class NearBoundary<3> {
     return near_.clear[static_cast<std::size_t>(leaf)] != 0;
   }
   // Returns whether a facet is within `reach` of node i, which must have a list. If `reach` exceeds
-  // method::kVolumeClearance, facets up to a quarter farther away may count.
+  // the d of the node, facets up to a quarter farther away may count.
   bool within(std::int64_t i, double reach) const { return gap_(i) <= reach; }
   // Returns whether the boundary hid no node from node i in the last rebuild of the lists.
   bool sees_all(std::int64_t i) const { return hidden_(i) == 0; }
