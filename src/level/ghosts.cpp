@@ -83,7 +83,7 @@ void Ghosts<Dim>::exchange(const Communicator& comm, LevelTree<Dim>& tree, const
   });
   std::vector<Bytes> incoming;
   collective_try(comm, [&] {
-    incoming = halo_.exchange(std::move(outgoing), failure);
+    incoming = halo_.exchange(outgoing, failure);
     travel.reserve(nodes, kept, incoming);
   });
   // From here on no rank can fail, so no node is lost.
@@ -205,7 +205,7 @@ std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
   });
   agree_on_failure(comm, failure);
   failure = failure_of([&] {
-    requests = halo_.exchange(std::move(requests), nullptr);
+    requests = halo_.exchange(requests, nullptr);
     for (std::size_t k = 0; k < neighbours.size(); ++k) {
       const std::vector<std::int32_t>& sent = halo_.sent_to(neighbours[k]);
       const Translation<Dim> to = halo_.images().translation_to(neighbours[k]);
@@ -214,7 +214,7 @@ std::vector<GhostData> Ghosts<Dim>::receive_from_owners(
       });
     }
   });
-  collective_try(comm, [&] { answers = halo_.exchange(std::move(answers), failure); });
+  collective_try(comm, [&] { answers = halo_.exchange(answers, failure); });
   for (std::size_t k = 0; k < neighbours.size(); ++k) received[k].bytes.swap(answers[k]);
   return received;
 }

@@ -60,8 +60,7 @@ class HaloExchange {
     for (const int rank : neighbours) places_.add(rank);
     send_.assign(neighbours.size(), {});
     receive_.assign(neighbours.size(), {});
-    order_ = MessageOrder(neighbours_, images_);
-    comm.reserve_messages(neighbours.size());
+    order_messages();
   }
   // Adds a neighbour unless it is one. The other rank must do the same.
   void add_neighbour(int rank) {
@@ -76,11 +75,13 @@ class HaloExchange {
   const std::vector<int>& neighbours() const { return neighbours_; }
   const ImageRanks<Dim>& images() const { return images_; }
   // Sends outgoing[k] to neighbour k and returns the messages of the neighbours in the same order;
-  // see Communicator::exchange().
-  std::vector<Bytes> exchange(std::vector<Bytes> outgoing, std::exception_ptr failure) const {
-    attempt(failure, [&] { outgoing = in_order(std::move(outgoing)); });
-    outgoing.resize(neighbours_.size());
-    std::vector<Bytes> arrived = comm_->exchange(order_.ranks(), outgoing, failure);
+  // see Communicator::exchange(). Takes the messages, and frees their memory. Allocates nothing
+  // before the ranks agree, since others wait for messages meanwhile.
+  std::vector<Bytes> exchange(std::vector<Bytes>& outgoing, std::exception_ptr failure) const {
+    for (std::size_t k = 0; k < outgoing.size(); ++k)
+      in_order_[order_.departure(k)].swap(outgoing[k]);
+    std::vector<Bytes> arrived = comm_->exchange(order_.ranks(), in_order_, failure);
+    for (Bytes& message : in_order_) message = {};
     std::vector<Bytes> incoming(arrived.size());
     for (std::size_t k = 0; k < incoming.size(); ++k) incoming[k].swap(arrived[order_.arrival(k)]);
     return incoming;
@@ -113,8 +114,7 @@ class HaloExchange {
   // Completes the plan: sorts the lists by id, so that both sides agree.
   void build(const Nodes<Dim>& nodes) {
     exchange_.reset();
-    order_ = MessageOrder(neighbours_, images_);
-    comm_->reserve_messages(neighbours_.size());
+    order_messages();
     outgoing_ = {};
     incoming_ = {};
     std::vector<std::pair<std::int64_t, std::int32_t>> by_id;  // faster to sort than indices alone
@@ -187,11 +187,11 @@ class HaloExchange {
     }
   }
 
-  std::vector<Bytes> in_order(std::vector<Bytes> outgoing) const {
-    std::vector<Bytes> ordered(outgoing.size());
-    for (std::size_t k = 0; k < outgoing.size(); ++k)
-      ordered[order_.departure(k)].swap(outgoing[k]);
-    return ordered;
+  // Allocates memory for exchange().
+  void order_messages() {
+    order_ = MessageOrder(neighbours_, images_);
+    in_order_.resize(neighbours_.size());
+    comm_->reserve_messages(neighbours_.size());
   }
 
   // Moves ghosts from the positions of their owners' nodes to those of the images here.
@@ -239,6 +239,7 @@ class HaloExchange {
   std::vector<int> neighbours_;  // ranks, or those of copies of the periodic cell: see ImageRanks
   RankIndices places_;
   MessageOrder order_;
+  mutable std::vector<Bytes> in_order_;  // the messages of exchange() while they are sent
   std::vector<std::vector<std::int32_t>> send_, receive_;  // indices of nodes, by neighbour
   std::vector<std::int32_t> moved_to_;
   const Communicator* comm_ = nullptr;
