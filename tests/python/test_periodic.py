@@ -243,6 +243,7 @@ class Periodic(unittest.TestCase):
         for function, arguments in [
             (lambda path: placement.write(path, elements=True), ("elements.vtu",)),
             (placement.write_checkpoint, ("state.pnpbs",)),
+            (placement.set_nodes, ([(0.5, 0.5)],)),
             (placement.set_spacing, (np.full(placement.node_count, 0.1),)),
         ]:
             self.assert_status(Status.ERROR_UNSUPPORTED, "periodic", function, *arguments)
