@@ -65,7 +65,7 @@ set(PNPBS_TESTS_OF_sanitize
     parallel_volume_conformity_3 parallel_volume_halo parallel_volume_nodes parallel_volume_partition
     parallel_voronoi_cells parallel_wide_sums
     linkage_.* mutate_.* volume_files
-    command_bodies_cut_open command_cracks command_elements_on_boundary command_grids command_groups
+    command_bodies_cut_open command_elements_on_boundary command_grids command_groups
     command_hdf5_files command_input command_mpas command_node_fields command_node_volumes
     command_polygon_regions command_ranks_failing command_rasters command_regions command_simplify
     command_spacing_files command_stopping command_terminal)
@@ -74,6 +74,6 @@ set(PNPBS_TESTS_OF_sanitize
 # cover too: recorded node sets on all numbers of ranks are those of parallel_node_hashes.
 set(PNPBS_TESTS_OF_nightly
     parallel_hunt.* parallel_invariance parallel_mpi_errors_2 parallel_soak_8 parallel_volume_conformity
-    parallel_volume_invariance api_closing
+    parallel_volume_invariance api_closing linkage_signatures_can_fail
     bench_bodies bench_compare bench_compare_bodies bench_loose_pieces bench_random_bodies bench_sliding
     bench_space_scaling bench_spheres bench_studies command_many_random_solids)

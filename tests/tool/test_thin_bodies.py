@@ -128,7 +128,7 @@ class ThinBodies(CommandTest):
         outer, inner = box((0, 0, 0), (6, 6, 6)), box((0.1, 0.1, 0.1), (5.9, 5.9, 5.9))
         shell = self.write_off("shell.off", [(*outer, False), (*inner, True)])
         for domain, spacing in ((shell, 1), ("box(0,0,0, 10,6,0.05)", 0.6)):
-            hashes = {self.place(domain, spacing, ranks=ranks)["hash"] for ranks in (0, 2, 3, 5)}
+            hashes = {self.place(domain, spacing, ranks=ranks)["hash"] for ranks in (0, 3)}
             self.assertEqual(len(hashes), 1, domain)
 
 
