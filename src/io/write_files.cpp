@@ -181,7 +181,7 @@ const Format& format_of(const std::string& path, const std::string& name) {
   if (format) return *format;
   if (name.empty())
     refuse("'" + path + "' has no extension of a known format; it should end in one of " +
-           list_of_formats());
+           list_of_formats() + "; pictures are written by the command (pnpbs --output)");
   refuse("unknown format \"" + name + "\"; known are " + list_of_formats());
 }
 
