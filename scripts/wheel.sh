@@ -8,11 +8,14 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<TEXT
-usage: scripts/wheel.sh [--no-command] [FOLDER]
+usage: scripts/wheel.sh [--no-command] [--gdal PREFIX] [FOLDER]
 
-  FOLDER        where the wheel goes, build/wheels by default
-  --no-command  leave the command out, and with it what it needs: cairo as static libraries, CLI11,
-                muParser, nlohmann_json
+  FOLDER         where the wheel goes, build/wheels by default
+  --no-command   leave the command out, and with it what it needs: cairo as static libraries, CLI11,
+                 muParser, nlohmann_json
+  --gdal PREFIX  add the library for GeoJSON, shapefiles and rasters, with GDAL and PROJ as installed in
+                 PREFIX and their tables. packaging/wheels/gdal.sh builds a GDAL for this. The system's
+                 one (--gdal /usr) brings a hundred libraries along, some of them under the GPL
 
 Two cores need about ten minutes, since the library is built twice, for all processors and for those
 with AVX2.
@@ -23,10 +26,14 @@ is found as in other builds; scripts/setup.sh builds one. auditwheel and patchel
 TEXT
 }
 
-command=ON folder=build/wheels
+command=ON gdal="" folder=build/wheels
 while [ $# -gt 0 ]; do
   case $1 in
     --no-command) command=OFF ;;
+    --gdal)
+      gdal=${2:?wheel.sh: --gdal needs the folder where GDAL is installed}
+      shift
+      ;;
     -h | --help)
       usage
       exit 0
@@ -57,6 +64,23 @@ if [ $command = ON ]; then
 else
   parts=(libgomp1)
 fi
+geo=()
+if [ -n "$gdal" ]; then
+  gdal=$(realpath "$gdal")
+  for part in gdal proj; do
+    if [ -f "$gdal/share/doc/$part/copyright" ]; then
+      cp "$gdal/share/doc/$part/copyright" "$built/notices/$part.txt"
+    fi
+  done
+  # The packages that own the libraries which GDAL needs.
+  while read -r library; do
+    owner=$(dpkg-query -S "$(realpath "$library")" "${library#/usr}" 2> /dev/null | head -n 1) || true
+    if [ -n "$owner" ]; then parts+=("${owner%%:*}"); fi
+  done < <(ldd "$(find "$gdal/lib" -name libgdal.so | head -n 1)" | awk '$3 ~ /^\// { print $3 }')
+  geo=(-C cmake.define.PNPBS_ENABLE_GEO=ON -C cmake.define.PNPBS_PYTHON_GEO_TABLES="$gdal/share"
+    -C cmake.define.GDAL_ROOT="$gdal")
+  export LD_LIBRARY_PATH=$gdal/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+fi
 for part in "${parts[@]}"; do
   cp "/usr/share/doc/$part/copyright" "$built/notices/$part.txt" 2> /dev/null ||
     echo "wheel.sh: no terms of $part found; add them before you give the wheel away" >&2
@@ -67,7 +91,7 @@ $tools/bin/pip wheel -v --no-deps --disable-pip-version-check --wheel-dir "$buil
   -C build-dir="$PWD/build/wheel-cmake" -C cmake.define.PNPBS_ENABLE_MPI=OFF \
   -C cmake.define.PNPBS_PYTHON_NOTICES="$built/notices" \
   -C cmake.define.PNPBS_PYTHON_COMMAND=$command -C cmake.define.PNPBS_STATIC_CAIRO=$command \
-  ./bindings/python
+  ${geo[@]+"${geo[@]}"} ./bindings/python
 # Copies libraries that a Linux system may lack, such as libgomp, into the wheel under unique names,
 # and sets the oldest supported glibc.
 PATH=$PWD/$tools/bin:$PATH $tools/bin/auditwheel repair --strip --wheel-dir "$folder" "$built"/pnpbs-*.whl

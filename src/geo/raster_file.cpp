@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <mutex>
 #include <string_view>
 
 #include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "geo/gdal_messages.hpp"
+#include "geo/gdal_setup.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -70,8 +70,7 @@ bool has_degrees_east(GDALDatasetH dataset) {
 }  // namespace
 
 RasterFile::Dataset RasterFile::open(const std::string& path) {
-  static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  set_up_gdal();
   VSIStatBufL status;
   if (VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) != 0 &&
       path.find(':') == std::string::npos)

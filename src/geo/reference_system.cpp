@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "geo/gdal_messages.hpp"
+#include "geo/gdal_setup.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -39,6 +40,7 @@ ReferenceSystem ReferenceSystem::copy_of(OGRSpatialReferenceH system) {
 }
 
 ReferenceSystem ReferenceSystem::called(const std::string& text) {
+  set_up_gdal();
   const GdalMessages messages;
   ReferenceSystem system(OSRNewSpatialReference(nullptr));
   const bool is_address = text.starts_with("http") || text.starts_with("/vsi");

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <type_traits>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "base/extension.hpp"
 #include "base/point_text.hpp"
 #include "geo/gdal_messages.hpp"
+#include "geo/gdal_setup.hpp"
 
 namespace pnpbs::geo {
 namespace {
@@ -32,11 +32,6 @@ struct DestroyFeature {
   void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
 };
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
-
-void register_drivers() {
-  static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
-}
 
 bool exists(const std::string& path) {
   VSIStatBufL status;
@@ -59,7 +54,7 @@ std::string advice_on(const std::string& path) {
 }
 
 Dataset open_file(const std::string& path, GdalMessages& messages) {
-  register_drivers();
+  set_up_gdal();
   if (!exists(path) && path.find(':') == std::string::npos)
     reject_file("cannot open '" + path + "': there is no such file");
   messages.forget();

@@ -11,15 +11,18 @@ trap 'rm -rf "$work"' EXIT
 unset PNPBS_LIBRARY PYTHONPATH
 
 # The library of shapes is put into the wheel where there is one.
-geo=OFF
-[ ! -e "$(dirname "$library")/libpnpbs_geo.so.0" ] || geo=ON
+geo=OFF tables=
+if [ -e "$(dirname "$library")/libpnpbs_geo.so.0" ]; then
+  geo=ON tables=$(pkg-config --variable=datadir proj)/..
+fi
 
 # The build tools, NumPy and mpi4py are those of the environment of the tests.
 cp -r "$bindings" "$work/bindings"
 # build <folder> <ON: with the library of shapes, or OFF>
 build() {
   "$python" -m pip wheel --quiet --no-deps --no-build-isolation --disable-pip-version-check \
-    -C cmake.define.PNPBS_LIBRARY="$library" -C cmake.define.PNPBS_ENABLE_GEO="$2" -w "$1" "$work/bindings"
+    -C cmake.define.PNPBS_LIBRARY="$library" -C cmake.define.PNPBS_ENABLE_GEO="$2" \
+    -C cmake.define.PNPBS_PYTHON_GEO_TABLES="$tables" -w "$1" "$work/bindings"
 }
 build "$work" $geo
 # The build must not leave files in the source folder.
@@ -56,6 +59,12 @@ import pnpbs
 with pnpbs.Context() as context, pnpbs.Shapes('triangle.geojson', projection='none') as shapes:
     area = shapes.add_to(pnpbs.Domain(context)).measure()
 assert area == 0.5, area"
+  # PROJ must find its tables in the wheel, not in the system.
+  PROJ_DATA=/nowhere PROJ_LIB=/nowhere "$fresh" -c "
+import pnpbs
+with pnpbs.Context() as context, pnpbs.Shapes('triangle.geojson', projection='EPSG:3857') as shapes:
+    area = shapes.add_to(pnpbs.Domain(context)).measure()
+assert abs(area / 111319.49 ** 2 - 0.5) < 1e-3, area"
 fi
 
 for example in smallest laplace_ring adaptive_fem adaptive_rbf_fd; do
