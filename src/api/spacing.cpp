@@ -177,7 +177,6 @@ pnpbs_status pnpbs_placement_set_spacing_at_nodes(pnpbs_placement placement, int
                                                   const double* d) {
   return replace_spacing(placement, [&]<int Dim>(PlacementImpl<Dim>& in) {
     Results<Dim>& results = in.results();
-    require_not_periodic(results, "the spacing cannot be given at nodes");
     results.prepare_order();
     if (n != results.count())
       throw Error(ErrorKind::argument, "argument n = " + std::to_string(n) + "; this rank has " +

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "level/plane/closed_sphere.hpp"
 #include "spacing/nodal_spacing.hpp"
+#include "spacing/patch_images.hpp"
 
 namespace pnpbs {
 
@@ -159,6 +160,7 @@ std::shared_ptr<const Spacing<Dim>> spacing_from(Results<Dim>& results,
   values.resize(patch.nodes.size());
   fill_ghosts(results.communicator(), *results.exchange_pattern(), values);
   for (std::size_t p = 0; p < values.size(); ++p) patch.nodes[p].value = values[p];
+  collective_try(results.communicator(), [&] { add_images(patch, results.level().nodes.cell); });
   return std::make_shared<NodalSpacing<Dim>>(results.ranks(), std::move(patch),
                                              results.embedding());
 }

@@ -33,6 +33,14 @@ struct Patch {
   // For each border facet, the remaining corner of its simplex, or -1 if that is not known. May be
   // empty.
   std::vector<std::int32_t> behind;
+  // In a periodic domain: the last nodes are images, of these nodes (patch_images.hpp).
+  std::vector<std::int32_t> images;
+
+  // Returns the node of which a node is an image, or the node itself.
+  std::int32_t node_of(std::int32_t n) const {
+    const auto image = static_cast<std::size_t>(n) + images.size();
+    return image < nodes.size() ? n : images[image - nodes.size()];
+  }
 };
 
 // The nodes and weights from which the value at a point is interpolated or extrapolated.

@@ -221,6 +221,67 @@ class Periodic(unittest.TestCase):
         self.assert_valid(torus)
         self.assertEqual(len(torus.elements), 2 * torus.count)
 
+    def triangles_around(self, torus):
+        """Returns the corners of all triangles and of their images, and d at the corners."""
+        moves = [(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
+        period = torus.high - torus.low
+        x = np.vstack([torus.points[torus.elements] + move * period for move in moves])
+        return x, np.tile(torus.elements, (len(moves), 1))
+
+    def interpolated(self, torus, values, at):
+        """Returns values at nodes and images, interpolated in the triangles around points."""
+        x, corners = self.triangles_around(torus)
+        edges = np.linalg.inv((x[:, 1:] - x[:, :1]).transpose(0, 2, 1))
+        result = []
+        for point in at:
+            weights = np.einsum("tij,tj->ti", edges, point - x[:, 0])
+            weights = np.column_stack([1 - weights.sum(axis=1), weights])
+            inside = weights.min(axis=1).argmax()
+            self.assertGreater(weights[inside].min(), -1e-9)
+            result.append(weights[inside] @ values[corners[inside]])
+        return np.array(result)
+
+    def test_spacing_at_nodes(self):
+        domain = pnpbs.Domain(self.context).set_periodic(LOW[:2], HIGH[:2])
+        placement = pnpbs.Placement(domain).set_spacing(self.wave(finest=0.025))
+        placement.run()
+        before = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        d = self.wave((0.5, 0.3), finest=0.02)(before.points)
+        placement.set_spacing(d[: before.count])
+        placement.run()
+        placement.check()
+        torus = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        self.assert_valid(torus)
+        self.assertEqual(len(torus.elements), 2 * torus.count)
+        own = slice(torus.count)
+        expected = self.interpolated(before, d, torus.points[own])
+        np.testing.assert_allclose(torus.spacing[own], expected, rtol=1e-12)
+
+    def test_spacing_at_nodes_beside_a_hole_across_the_corner(self):
+        domain = pnpbs.Domain(self.context).set_periodic(LOW[:2], HIGH[:2])
+        domain.add_arc((LOW[0], HIGH[1]), 0.3, tag=5)
+        placement = pnpbs.Placement(domain).set_spacing(0.08)
+        placement.run()
+        before = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        around = np.flatnonzero(before.tags == 5)
+        corner = np.array([LOW[0], HIGH[1]])
+        period = HIGH[:2] - LOW[:2]
+
+        def from_corner(x):
+            return (x - corner) - period * np.rint((x - corner) / period)
+
+        d = 0.05 + 0.02 * from_corner(before.points)[:, 0] / 0.3
+        placement.set_spacing(d[: before.count])
+        placement.run()
+        torus = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        # A node on the hole has d of the two nodes before that are nearest on the circle.
+        x = torus.points[: torus.count]
+        for k in np.flatnonzero(torus.tags == 5):
+            way = from_corner(before.points[around] - from_corner(x[k]))
+            two = np.argsort(np.linalg.norm(way, axis=1))[:2]
+            low, high = sorted(d[around[two]])
+            self.assertTrue(low - 1e-12 <= torus.spacing[k] <= high + 1e-12)
+
     def assert_status(self, status, part, function, *arguments, **keywords):
         with self.assertRaises(PNPBSError) as caught:
             function(*arguments, **keywords)
@@ -244,7 +305,6 @@ class Periodic(unittest.TestCase):
             (lambda path: placement.write(path, elements=True), ("elements.vtu",)),
             (placement.write_checkpoint, ("state.pnpbs",)),
             (placement.set_nodes, ([(0.5, 0.5)],)),
-            (placement.set_spacing, (np.full(placement.node_count, 0.1),)),
         ]:
             self.assert_status(Status.ERROR_UNSUPPORTED, "periodic", function, *arguments)
 
