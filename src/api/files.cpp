@@ -61,7 +61,6 @@ pnpbs_status pnpbs_placement_write_checkpoint(pnpbs_placement placement, const c
                   "placed, on coarser levels, or in the finish");
     collective_try(object.placement->communicator(), [&] {
       require_pointer(path, "path");
-      require_not_periodic(object.placement->results(), "there are no checkpoints");
       io::write_checkpoint(*object.placement, path);
     });
     return PNPBS_OK;

@@ -16,6 +16,13 @@ class Fingerprint {
   void add(const std::array<double, Dim>& x) {
     for (double coordinate : x) add(coordinate);
   }
+  template <int Dim>
+  void add(const PeriodicCell<Dim>& cell) {
+    if (!cell.any()) return;
+    add(cell.box().low);
+    add(cell.box().high);
+    for (int k = 0; k < Dim; ++k) add(cell.period(k));
+  }
   std::uint64_t value() const { return value_; }
 
  private:
@@ -28,6 +35,7 @@ std::uint64_t fingerprint_of(const PlaneDomain& domain) {
   Fingerprint print;
   if (const Embedding<2>& in = domain.embedding(); in.is_sphere())
     print.add(in.chart().projection_centre());
+  print.add(domain.cell());
   // The patch that closes a whole sphere depends on the spacing and is no part of the user's
   // domain.
   const bool whole = domain.is_whole_sphere();
@@ -50,6 +58,7 @@ std::uint64_t fingerprint_of(const PlaneDomain& domain) {
 
 std::uint64_t fingerprint_of(const VolumeDomain& domain) {
   Fingerprint print;
+  print.add(domain.cell());
   for (const BoundaryNode<3>& node : domain.mesh().nodes) print.add(node.position);
   for (const BoundaryTriangle& facet : domain.mesh().facets) {
     for (const std::int32_t node : facet.nodes) print.add(node);

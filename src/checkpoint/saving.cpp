@@ -60,11 +60,13 @@ void require_possible_node(const Level<Dim>& level, const SavedState& state,
                            const PackedNode<Dim>& node) {
   const Box<Dim>& bounds = level.geometry.bounds();
   const double margin = size_of(bounds);  // nodes on a level set may be slightly outside
-  bool inside = true;
+  bool inside = level.nodes.cell.image_of(node.x) == Image<Dim>{};
   for (int k = 0; k < Dim; ++k)
     inside = inside && node.x[k] >= bounds.low[k] - margin && node.x[k] <= bounds.high[k] + margin;
   const MessageText which = "node " + std::to_string(node.id) + " at " + point_text(node.x);
-  if (node.id < 0 || node.id >= state.next_id)
+  const PeriodicCell<Dim>& cell = level.nodes.cell;
+  const std::int64_t number = cell.number_of(node.id);
+  if (number < 0 || number >= state.next_id || cell.home_id(node.id) != node.id)
     damaged(which + ": ids must be at least 0 and less than " + std::to_string(state.next_id) +
             ": it is damaged");
   if (!inside || (node.carrier == Carrier::free &&
@@ -216,6 +218,19 @@ LocalReduction<Dim> held_in(const SavedState& state) {
           state.start_nodes_before_reduction, state.least_before_held};
 }
 
+// Returns the fingerprint of the domain that the user gives. The domain of a level has further
+// copies of a periodic cell.
+template <int Dim>
+std::uint64_t fingerprint_of_given(const Domain<Dim>& domain) {
+  if (!domain.cell().any()) return fingerprint_of(domain);
+  Domain<Dim> given = domain;
+  Image<Dim> copies{};
+  for (int k = 0; k < Dim; ++k) copies[k] = domain.cell().periodic(k);
+  given.set_copies(copies);
+  given.check();
+  return fingerprint_of(given);
+}
+
 template <int Dim>
 void save_undersampled_points(const SpacingHints<Dim>& finer, SavedState& s) {
   for (const GrowthSource<Dim>& place : finer.in_domain) append(s.undersampled_points, place);
@@ -317,7 +332,9 @@ Saved<Dim> saved_of(const Level<Dim>& level, const PlacedSpacing<Dim>& placed,
     s.steepest.assign(placed.steepest.at.begin(), placed.steepest.at.end());
     s.steepest.push_back(placed.steepest.growth);
   });
-  s.domain_fingerprint = fingerprint_of(level.geometry.domain());
+  collective_try(*level.comm, [&] {
+    s.domain_fingerprint = fingerprint_of_given<Dim>(level.geometry.domain());
+  });
   s.checksum = level.comm->allreduce_sum(checksum) + checksum_of_tables(s);
   return saved;
 }
