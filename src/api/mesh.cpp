@@ -71,6 +71,7 @@ void require_prefix(const Communicator& comm, const char* prefix) {
 pnpbs_status pnpbs_mesh_create(pnpbs_placement placement, int32_t ghost_layers, pnpbs_mesh* mesh) {
   return collective_create(placement, mesh, "mesh", meshes, [&](PlacementObject& object) {
     NodalResults& results = object.placement->results();
+    require_not_periodic(results, "there is no mesh");
     require_layers(results.communicator(), ghost_layers);
     auto made = std::make_shared<MeshObject>();
     made->context = object.context;

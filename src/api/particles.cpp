@@ -42,7 +42,8 @@ void require_body(const NodalResults& results) {
 pnpbs_status pnpbs_particles_create(pnpbs_placement placement, pnpbs_domain body,
                                     pnpbs_particles* particles) {
   const auto make = [&](PlacementObject& object) {
-    const NodalResults& results = object.placement->results();
+    NodalResults& results = object.placement->results();
+    require_not_periodic(results, "there are no particles");
     std::shared_ptr<DomainObject> within;
     collective_try(results.communicator(), [&] {
       within = body_with(*object.context, results.dimension() == 2, body);

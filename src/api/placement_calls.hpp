@@ -67,7 +67,6 @@ pnpbs_status collective_create(pnpbs_placement placement, Handle* handle, const 
   Handle made = nullptr;
   const pnpbs_status status = collective_on_object(placement, [&](PlacementObject& object) {
     require_pointer(handle, argument);
-    require_not_periodic(object.placement->results(), std::string("there is no ") + argument);
     made = registry().add(make(object));
     return PNPBS_OK;
   });

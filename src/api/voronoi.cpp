@@ -9,6 +9,7 @@ using namespace pnpbs::api;
 
 pnpbs_status pnpbs_voronoi_create(pnpbs_placement placement, pnpbs_voronoi* voronoi) {
   return collective_create(placement, voronoi, "voronoi", voronois, [](PlacementObject& object) {
+    require_not_periodic(object.placement->results(), "there are no Voronoi cells");
     auto made = std::make_shared<VoronoiObject>();
     made->context = object.context;
     made->cells = make_voronoi_cells(object.placement->results());

@@ -90,14 +90,16 @@ class FieldTransferOf : public FieldTransfer {
 
   FieldTransferOf(Results<Dim>& results, TransferOrder order, std::int64_t components,
                   const double* values)
-      : space_(results),
-        search_(results.ranks(), space_.searched(space_.patch(results))),
-        values_(with_ghosts(results, components, values)),
-        integrals_(integrals(results.communicator(), space_, search_.patch().patch(),
-                             results.kind() == GeometryKind::surface, components, values_)) {
+      : space_(results) {
     components_ = components;
-    if (order == TransferOrder::second)
-      fits_.emplace(results, search_.patch().patch().nodes, components, values_);
+    typename Space::Data patch = space_.patch(results);
+    values_ = with_ghosts(results, components, values);
+    const Communicator& comm = results.communicator();
+    integrals_ = integrals(comm, space_, patch, results.kind() == GeometryKind::surface, components,
+                           values_);
+    if (order == TransferOrder::second) fits_.emplace(results, patch.nodes, components, values_);
+    collective_try(comm, [&] { space_.add_images(patch); });
+    search_.emplace(results.ranks(), space_.searched(std::move(patch)));
   }
 
   int dimension() const override { return Dim; }
@@ -118,8 +120,8 @@ class FieldTransferOf : public FieldTransfer {
   void conserve_integrals(Results<Dim>& results, double* values) const;
 
   Space space_;
-  NodalSearch<typename Space::Searched> search_;
-  std::vector<double> values_;     // Values at the nodes of the patch.
+  std::optional<NodalSearch<typename Space::Searched>> search_;
+  std::vector<double> values_;     // Values at the nodes and ghosts.
   std::vector<double> integrals_;  // Integrals of the components, and the size of all elements.
   std::optional<typename Space::Fits> fits_;
 };
@@ -129,11 +131,12 @@ class FieldTransferOf : public FieldTransfer {
 template <class Space>
 void FieldTransferOf<Space>::answer(const Question& question, double* values) const {
   const PatchWeights<Dim> w =
-      search_.patch().weights(question.x, static_cast<std::int32_t>(question.row));
+      search_->patch().weights(question.x, static_cast<std::int32_t>(question.row));
+  const auto node_of = [&](std::size_t k) { return search_->patch().patch().node_of(w.nodes[k]); };
   for (std::int64_t c = 0; c < components_; ++c) {
     std::array<double, Dim + 1> corner;
     for (std::size_t k = 0; k <= Dim; ++k)
-      corner[k] = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
+      corner[k] = values_[static_cast<std::size_t>(node_of(k) * components_ + c)];
     double value = w.inside ? w.weights[0] * corner[0] : corner[0];
     for (std::size_t k = 1; k <= Dim; ++k)
       value += w.weights[k] * (w.inside ? corner[k] : corner[k] - corner[0]);
@@ -146,6 +149,17 @@ void FieldTransferOf<Space>::answer(const Question& question, double* values) co
   if (fits_) add_curvature(question.x, w, values);
 }
 
+// Returns the point that x is where the node of which n is an image takes the place of n.
+template <class Patch, class Point>
+Point seen_from_node(Point x, const Patch& patch, std::int32_t n) {
+  const std::int32_t node = patch.node_of(n);
+  if (node == n) return x;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] += patch.nodes[static_cast<std::size_t>(node)].x[k] -
+            patch.nodes[static_cast<std::size_t>(n)].x[k];
+  return x;
+}
+
 // Blends the linear values with the corners' polynomials by the corners' weights. The result is
 // continuous and reproduces fields of second order. Corners without a polynomial remain linear.
 template <class Space>
@@ -153,12 +167,15 @@ void FieldTransferOf<Space>::add_curvature(const Point<In>& x, const PatchWeight
                                            double* values) const {
   const double part = part_of_curvature(w);
   if (part == 0) return;
+  const auto& patch = search_->patch().patch();
   for (std::int64_t c = 0; c < components_; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k <= Dim; ++k) {
-      if (w.weights[k] == 0 || !fits_->has(w.nodes[k])) continue;
-      const double at_corner = values_[static_cast<std::size_t>(w.nodes[k] * components_ + c)];
-      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(w.nodes[k], c, x));
+      const std::int32_t node = patch.node_of(w.nodes[k]);
+      if (w.weights[k] == 0 || !fits_->has(node)) continue;
+      const double at_corner = values_[static_cast<std::size_t>(node * components_ + c)];
+      const Point<In> seen = seen_from_node(x, patch, w.nodes[k]);
+      sum += w.weights[k] * (at_corner - values[c] + fits_->rise(node, c, seen));
     }
     values[c] += part * sum;
   }
@@ -184,7 +201,7 @@ std::vector<Message> FieldTransferOf<Space>::answered(const std::vector<Message>
 
 template <class Space>
 void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* values) const {
-  const Communicator& comm = search_.communicator();
+  const Communicator& comm = search_->communicator();
   std::vector<Point<In>> points;
   collective_try(comm, [&] {
     given_values::require_points<In>("argument coordinates", n, x);
@@ -192,9 +209,10 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
     for (std::int64_t i = 0; i < n; ++i) {
       Point<In>& point = points[static_cast<std::size_t>(i)];
       std::copy_n(x + In * i, In, point.begin());
+      point = space_.in_cell(point);
     }
   });
-  const auto found = search_.find(n, points.data());
+  const auto found = search_->find(n, points.data());
   Outbox questions;
   collective_try(comm, [&] {
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -220,7 +238,7 @@ void FieldTransferOf<Space>::evaluate(std::int64_t n, const double* x, double* v
 
 template <class Space>
 void FieldTransferOf<Space>::conserve_integrals(Results<Dim>& results, double* values) const {
-  const Communicator& comm = search_.communicator();
+  const Communicator& comm = search_->communicator();
   const std::vector<double> all = with_ghosts(results, components_, values);
   const std::vector<double> now =
       integrals(comm, space_, space_.patch(results), results.kind() == GeometryKind::surface,
@@ -238,7 +256,7 @@ void FieldTransferOf<Space>::evaluate_at_nodes(NodalResults& results, bool conse
                                                double* values) const {
   auto& in = static_cast<Results<Dim>&>(results);
   std::vector<double> x;
-  collective_try(search_.communicator(), [&] {
+  collective_try(search_->communicator(), [&] {
     in.prepare_order();
     const std::int64_t owned = in.count();
     for (std::int64_t p = 0; p < owned; ++p) {

@@ -9,6 +9,7 @@
 #include "base/space_vectors.hpp"
 #include "results/nodal_values.hpp"
 #include "spacing/nodal_patch.hpp"
+#include "spacing/patch_images.hpp"
 #include "spacing/sphere_patch.hpp"
 #include "sphere/sphere_geometry.hpp"
 #include "transfer/quadratic_fits.hpp"
@@ -23,8 +24,11 @@ struct FlatSpace {
   using Searched = NodalPatch<Dim>;
   using Fits = QuadraticFits<Dim>;
 
-  explicit FlatSpace(const Results<Dim>&) {}
+  explicit FlatSpace(const Results<Dim>& results) : cell(results.level().nodes.cell) {}
   Data patch(Results<Dim>& results) const { return patch_of(results); }
+  void add_images(Data& patch) const { pnpbs::add_images(patch, cell); }
+  // Returns the point of a periodic cell that x is an image of.
+  Point<Dim> in_cell(const Point<Dim>& x) const { return cell.in_cell(x); }
   Searched searched(Data patch) const { return Searched(std::move(patch)); }
   Point<Dim> position(const Results<Dim>& results, std::int64_t node) const {
     return results.level().nodes.position(node);
@@ -44,6 +48,8 @@ struct FlatSpace {
     const Point<3> normal = cross(difference(c[1], c[0]), difference(c[2], c[0]));
     return std::fabs(dot(normal, difference(c[3], c[0]))) / 6;
   }
+
+  PeriodicCell<Dim> cell;
 };
 
 struct SphereSpace {
@@ -54,6 +60,8 @@ struct SphereSpace {
 
   explicit SphereSpace(const Results<2>& results) : radius(results.sphere_radius()) {}
   Data patch(Results<2>& results) const { return sphere_patch_of(results); }
+  void add_images(Data&) const {}
+  Point<3> in_cell(const Point<3>& x) const { return x; }
   Searched searched(Data patch) const { return Searched(std::move(patch), radius); }
   Point<3> position(const Results<2>& results, std::int64_t node) const {
     return results.point_in_space(node);
