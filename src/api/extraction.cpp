@@ -315,7 +315,6 @@ pnpbs_status pnpbs_placement_get_edges(pnpbs_placement placement, int64_t capaci
                                        double* midpoints) {
   return collective_results(placement, [&](NodalResults& results) {
     require_pointer(count, "count");
-    require_not_periodic(results, "there are no nodes of second order");
     const MidNodes& mids =
         visit_dimension(results, [](auto& in) -> const MidNodes& { return in.mid_nodes(); });
     *count = std::ssize(mids.nodes());
@@ -364,7 +363,6 @@ pnpbs_status pnpbs_placement_find_edges(pnpbs_placement placement, int64_t n, in
                   "argument corners = " + std::to_string(corners) + "; 2, 3 or 4 was expected");
     if (n > 0) require_pointer(cells, "cells");
     if (n > 0) require_pointer(edges, "edges");
-    require_not_periodic(results, "there are no nodes of second order");
     const MidNodes& mids =
         visit_dimension(results, [](auto& in) -> const MidNodes& { return in.mid_nodes(); });
     require_local_indices(cells, n, corners, results.held());

@@ -122,6 +122,11 @@ struct Translation {
 
   Point<Dim> operator()(const Point<Dim>& x) const { return cell.seen_from(image, x); }
   Box<Dim> operator()(const Box<Dim>& box) const { return {(*this)(box.low), (*this)(box.high)}; }
+  // Returns the point that the translation leads to x.
+  Point<Dim> back(Point<Dim> x) const {
+    for (int k = 0; k < Dim; ++k) x[k] += image[k] * cell.period(k);
+    return x;
+  }
   std::int64_t id(std::int64_t id) const { return id - PeriodicCell<Dim>::id_shift(image); }
 };
 

@@ -55,12 +55,27 @@ class MidNodeMaker {
     collective_try(comm_, [this] { find_edges(); });
     report();
     collective_try(comm_, [this] { place(); });
+    if (level_.nodes.cell.any()) make_images_equal();
     unfold();
     return std::move(mids_);
   }
 
  private:
   std::int64_t id(std::int64_t place) const { return level_.nodes.id(results_.node_at(place)); }
+
+  // Returns the ids of the ends of an edge, in ascending order. In a periodic domain they are those
+  // of its image with the first end in the cell.
+  std::array<std::int64_t, 2> ids(const MidNode& mid) const {
+    const PeriodicCell<Dim>& cell = level_.nodes.cell;
+    const std::int64_t a = id(mid.ends[0]), b = id(mid.ends[1]);
+    const std::int64_t least = std::min(a, b), home = cell.home_id(least);
+    return {home, std::max(a, b) - (least - home)};
+  }
+  // Returns the translation of an edge to this image.
+  Translation<Dim> to_cell(const MidNode& mid) const {
+    const PeriodicCell<Dim>& cell = level_.nodes.cell;
+    return {cell, cell.image_of_id(std::min(id(mid.ends[0]), id(mid.ends[1])))};
+  }
 
   // Calls visit(corners) for all elements and facets of this rank.
   template <class Visit>
@@ -114,10 +129,7 @@ class MidNodeMaker {
 
   std::vector<Report> own_reports() const {
     std::vector<Report> reports;
-    for (const MidNode& mid : mids_.nodes_) {
-      const std::int64_t a = id(mid.ends[0]), b = id(mid.ends[1]);
-      reports.push_back({{std::min(a, b), std::max(a, b)}, kNone, kNone});
-    }
+    for (const MidNode& mid : mids_.nodes_) reports.push_back({ids(mid), kNone, kNone});
     const auto reduce = [&](const auto& places, std::int64_t Report::*member, std::int64_t value) {
       for (const std::int64_t e : mids_.of(places)) {
         std::int64_t& least = reports[static_cast<std::size_t>(e)].*member;
@@ -138,10 +150,7 @@ class MidNodeMaker {
   template <class Answer, class Question, class Respond>
   std::vector<Answer> answers(const std::vector<Question>& questions, const Respond& respond) {
     if (!blocks_) return respond(questions);
-    const auto rank_of = [&](std::size_t e) {
-      const auto& ends = mids_.nodes_[e].ends;
-      return blocks_->rank_of(std::min(id(ends[0]), id(ends[1])));
-    };
+    const auto rank_of = [&](std::size_t e) { return blocks_->rank_of(ids(mids_.nodes_[e])[0]); };
     Outbox asked;
     for (std::size_t e = 0; e < questions.size(); ++e) pack(asked.to(rank_of(e)), questions[e]);
     const std::vector<Message> arrived = comm_.sparse_all_to_all(asked.messages());
@@ -224,6 +233,39 @@ class MidNodeMaker {
     move_to_boundary(level_, middles);
     for (std::size_t k = 0; k < middles.size(); ++k)
       mids_.nodes_[on_facets[k]].x = results_.embedding().in_space(middles[k].x);
+  }
+
+  // Moves the mid nodes of images of an edge so that they differ exactly by the periods. They were
+  // computed at different copies of the boundary. Collective.
+  void make_images_equal() {
+    struct Position {
+      Image<Dim> image;
+      Point<Dim> x;  // seen from this image
+    };
+    std::vector<Position> positions;
+    collective_try(comm_, [&] {
+      for (const MidNode& mid : mids_.nodes_) {
+        const Translation<Dim> to = to_cell(mid);
+        Point<Dim> x;
+        std::copy_n(mid.x.begin(), Dim, x.begin());
+        positions.push_back({to.image, to(mid.on_facet ? to.cell.rounded(x) : x)});
+      }
+    });
+    positions = answers<Position>(positions, [&](const std::vector<Position>& reports) {
+      std::vector<Position> first(assigned_), all;
+      std::vector<char> known(assigned_, 0);
+      for (std::size_t k = 0; k < reports.size(); ++k) {
+        const std::size_t edge = edge_of_report_[k];
+        if (known[edge] == 0 || reports[k].image < first[edge].image) first[edge] = reports[k];
+        known[edge] = 1;
+      }
+      for (const std::size_t edge : edge_of_report_) all.push_back(first[edge]);
+      return all;
+    });
+    for (std::size_t e = 0; e < positions.size(); ++e) {
+      const Point<Dim> x = to_cell(mids_.nodes_[e]).back(positions[e].x);
+      std::copy_n(x.begin(), Dim, mids_.nodes_[e].x.begin());
+    }
   }
 
   // Returns for each edge whether an element of this rank at it would fold.
