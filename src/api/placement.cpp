@@ -151,9 +151,6 @@ pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
     return visit_dimension(p, [&]<int Dim>(PlacementImpl<Dim>& placement_impl) {
       IncomingNodes<Dim> nodes;
       collective_try(p.communicator(), [&] {
-        if (placement_impl.domain().cell().any())
-          throw Error(ErrorKind::unsupported,
-                      "nodes cannot be given for a periodic domain (pnpbs_domain_set_periodic)");
         std::vector<double> charted;
         nodes = checked_nodes<Dim>(
             n, placed_coordinates(placement_impl.domain().embedding(), n, coordinates, charted),

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "base/point_text.hpp"
+#include "level/exchange.hpp"
 #include "level/expected_nodes.hpp"
 #include "level/first_nodes.hpp"
 #include "level/refinement.hpp"
@@ -34,6 +36,23 @@ void take_bounds(PlaneDomain& domain, const PlaneDomain& finer) {
   if (domain.is_whole_sphere()) domain.take_bounds(finer.bounds());
 }
 void take_bounds(VolumeDomain&, const VolumeDomain&) {}
+
+// Makes nodes of the user those of a level. In a periodic domain, ids of the user are numbers of
+// nodes, and points may lie outside of the cell.
+template <int Dim>
+void adopt_given(const Level<Dim>& level, IncomingNodes<Dim>& given) {
+  constexpr std::int64_t kMaxNumber = std::int64_t{1} << 50;
+  const PeriodicCell<Dim>& cell = level.nodes.cell;
+  if (!cell.any()) return;
+  for (IncomingNode<Dim>& node : given) {
+    if (node.id > kMaxNumber)
+      throw Error(ErrorKind::argument, "the id " + std::to_string(node.id) +
+                                           " of a given node at " + point_text(node.position) +
+                                           " must be in 0 .. 2^50, because the domain is periodic");
+    if (node.id >= 0) node.id = cell.id_of(node.id);
+    put_in_cell(level, node);
+  }
+}
 
 }  // namespace
 
@@ -143,6 +162,7 @@ void LevelBuilder<Dim>::take_kept_nodes(BuiltLevel<Dim>& made, Level<Dim>& befor
 template <int Dim>
 void LevelBuilder<Dim>::take_given_nodes(BuiltLevel<Dim>& made, IncomingNodes<Dim> given) {
   Level<Dim>& level = *made.level;
+  collective_try(*comm_, [&] { adopt_given(level, given); });
   settle_surfaces(level, given, made.outcome, LevelRole::surfaces, context_);
   made.taken = take(level, std::move(given), level.next_id);
 }
