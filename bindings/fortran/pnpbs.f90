@@ -1184,9 +1184,8 @@ contains
   !> Coordinates along a periodic axis, and the period, are rounded to multiples of 2**(-50) times
   !> the largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and
   !> inner curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
-  !> elements, elements of second order, distributed meshes, Voronoi cells, particles, transfer,
-  !> cracks, checkpoints and a spacing at nodes. Local. initialise and run return
-  !> PNPBS_ERROR_SPACING if a period is shorter than four spacings.
+  !> elements, distributed meshes, Voronoi cells, particles and cracks. Local. initialise and run
+  !> return PNPBS_ERROR_SPACING if a period is shorter than four spacings.
   !>   low, high  (dim) corners of the box
   !>   periodic   (dim) true along the axes on which the domain is periodic
   !>   tags       (2 dim) of the other sides: low x, high x, low y, ...; all are 1 if absent
@@ -1991,7 +1990,8 @@ contains
   !> and the library places the boundary nodes. On several ranks each rank passes some of the nodes,
   !> anywhere in the domain. Nodes many times too dense for d are thinned (statistic 'deleted').
   !> Points outside the domain or too close to its boundary are dropped (statistic 'dropped'). The
-  !> current nodes are removed. Collective.
+  !> current nodes are removed. In a periodic domain each point stands for its image in the box, and
+  !> ids above 2**50 are refused when the nodes are placed. Collective.
   !>   coordinates  (dim, n)
   !>   ids          optional, (n): distinct, 0 .. 2**62; default: chosen by the library
   subroutine placement_set_nodes(self, coordinates, ids, stat, errmsg)

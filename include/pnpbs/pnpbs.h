@@ -392,8 +392,7 @@ PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t ov
  *  image, and so is the period, which is rounded to it. So the node set does not depend on the
  *  ranks, like that of other domains. Not on a sphere, nor for surfaces alone, level sets and inner
  *  curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
- *  elements, elements of second order, distributed meshes, Voronoi cells, particles, transfer,
- *  cracks, checkpoints and a spacing at nodes.
+ *  elements, distributed meshes, Voronoi cells, particles and cracks.
  *
  *  Local. Errors: PNPBS_ERROR_ARGUMENT. pnpbs_placement_initialise and _run return
  *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.
@@ -973,6 +972,8 @@ PNPBS_API pnpbs_status pnpbs_placement_set_monitor(pnpbs_placement placement,
  *  times too dense for d are thinned (statistic `deleted`). Points outside the domain or too close
  *  to its boundary are dropped (statistic `dropped`). Clears the current nodes. Collective. On
  *  surfaces alone each point moves to the nearest point of a surface, if that is no farther than d.
+ *  In a periodic domain each point stands for its image in the box, and ids above 2^50 are refused
+ *  with PNPBS_ERROR_ARGUMENT when the nodes are placed.
  *  @param[in] coordinates  [n][dim]
  *  @param[in] ids          [n], distinct, 0 .. 2^62, or NULL for ids chosen by the library */
 PNPBS_API pnpbs_status pnpbs_placement_set_nodes(pnpbs_placement placement, int64_t n,
@@ -1271,7 +1272,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement pla
  *  do. Balls and cylinders are triangles within 1e-4 of the radius here, too. Where an element
  *  would fold, or its Jacobian fall below a tenth of that of the straight one, its edges are
  *  straight. Edges, numbers and mid nodes are the same for any number of ranks; several ranks may
- *  have an edge. Collective. Call with capacity 0 to get the count; arrays may be NULL.
+ *  have an edge. In a periodic domain a rank may have several images of an edge. They have the same
+ *  number, and their mid nodes differ by whole periods. Collective. Call with capacity 0 to get the count; arrays may be NULL.
  *  @param[in] capacity    edges the arrays have room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] count      number of edges
  *  @param[out] straight   edges of all ranks that are straight lest an element folds; may be NULL
@@ -1609,7 +1611,8 @@ PNPBS_API pnpbs_status pnpbs_transfer_sizes(pnpbs_transfer transfer, int32_t *di
 PNPBS_API pnpbs_status pnpbs_transfer_at_nodes(pnpbs_transfer transfer, pnpbs_placement placement,
                                                int32_t conserve, int64_t capacity, double *values);
 
-/** Evaluates the field at arbitrary points; each rank passes its own, 0 or more. Collective.
+/** Evaluates the field at arbitrary points; each rank passes its own, 0 or more. In a periodic
+ *  domain each point stands for its image in the box. Collective.
  *  Errors: PNPBS_ERROR_ARGUMENT for coordinates that are not finite, or beyond 1e60.
  *  @param[in] n            points of this rank
  *  @param[in] coordinates  [n][dim]; on a sphere points are taken along the ray from the origin

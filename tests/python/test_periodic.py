@@ -282,6 +282,32 @@ class Periodic(unittest.TestCase):
             low, high = sorted(d[around[two]])
             self.assertTrue(low - 1e-12 <= torus.spacing[k] <= high + 1e-12)
 
+    def test_transfer_across_seams(self):
+        domain = pnpbs.Domain(self.context).set_periodic(LOW[:2], HIGH[:2])
+        placement = pnpbs.Placement(domain).set_spacing(0.07)
+        placement.run()
+        before = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        turns = 2 * np.pi * (before.points - LOW[:2]) / (HIGH - LOW)[:2]
+        values = np.sin(turns[:, 0]) + np.cos(turns[:, 1])
+        field = pnpbs.Transfer(placement, values[: before.count])
+        random = np.random.default_rng(3)
+        inside = LOW[:2] + random.random((200, 2)) * (HIGH - LOW)[:2]
+        inside[:40, 0] = LOW[0]
+        periods = random.integers(-3, 4, (200, 2))
+        expected = self.interpolated(before, values, inside)
+        np.testing.assert_allclose(field.at_points(inside), expected, atol=1e-12)
+        beyond = inside + periods * (HIGH - LOW)[:2]
+        np.testing.assert_allclose(field.at_points(beyond), expected, atol=1e-12)
+
+        def integral(torus, values):
+            return (torus.measures() * values[torus.elements].mean(axis=1)).sum()
+
+        placement.set_spacing(self.wave(finest=0.03))
+        placement.run()
+        torus = Torus(placement, LOW[:2], HIGH[:2], (True, True))
+        there = field.at_nodes(placement, conserve=True)
+        self.assertAlmostEqual(integral(torus, there[torus.node]), integral(before, values), 12)
+
     def assert_status(self, status, part, function, *arguments, **keywords):
         with self.assertRaises(PNPBSError) as caught:
             function(*arguments, **keywords)
@@ -303,8 +329,7 @@ class Periodic(unittest.TestCase):
         placement.run()
         for function, arguments in [
             (lambda path: placement.write(path, elements=True), ("elements.vtu",)),
-            (placement.write_checkpoint, ("state.pnpbs",)),
-            (placement.set_nodes, ([(0.5, 0.5)],)),
+            (placement.voronoi, ()),
         ]:
             self.assert_status(Status.ERROR_UNSUPPORTED, "periodic", function, *arguments)
 

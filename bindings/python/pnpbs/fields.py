@@ -190,8 +190,9 @@ class Transfer(Handle):
 
     def at_points(self, coordinates: ArrayLike) -> Doubles:
         """Evaluates the field at points of shape (n, dim). Each rank passes its own points, or
-        none. Returns an array of shape (n,) or (n, ...). Raises `Status.ERROR_ARGUMENT` for
-        coordinates that are not finite. Collective."""
+        none. In a periodic domain each point stands for its image in the box. Returns an array of
+        shape (n,) or (n, ...). Raises `Status.ERROR_ARGUMENT` for coordinates that are not finite.
+        Collective."""
         dim = ctypes.c_int32()
         self.context._check(library().pnpbs_transfer_sizes(self._live(), ctypes.byref(dim), None))
         points = as_points(coordinates, dim.value, "coordinates")

@@ -304,6 +304,7 @@ class Placement(Results, Fields, Meshes, Tessellation):
 
         - `coordinates`: points of shape (n, dim), anywhere in the domain, different ones on each
           rank. They are copied. Points outside the domain or too close to its boundary are dropped.
+          In a periodic domain each point stands for its image in the box.
         - `ids`: n distinct global ids from 0, or None for ids that the library chooses.
 
         Raises ValueError if the ids are no integers, or if their number differs from that of

@@ -308,8 +308,8 @@ end
 Sets inner nodes from which the simulation starts instead of the initial fill, and returns the
 placement. They are the columns of `coordinates`, anywhere in the domain, different ones on each
 rank. `ids` are distinct global ids from 0; without them the library chooses ids. The library places
-the boundary nodes. Points outside the domain or too close to its boundary are dropped. The current
-nodes are removed. Collective.
+the boundary nodes. Points outside the domain or too close to its boundary are dropped. In a periodic
+domain each point stands for its image in the box. The current nodes are removed. Collective.
 """
 function set_nodes!(placement::Placement, coordinates::AbstractMatrix{<:Real};
                     ids::Union{Nothing,AbstractVector{<:Integer}} = nothing)
