@@ -49,6 +49,18 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
   return static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(mine)));
 }
 
+// Finds the facets that nodes on surfaces lie on. Those of the level that the nodes come from may
+// have other numbers, because it may have another number of copies of a periodic cell.
+void find_facets_again(const Level<3>& level, IncomingNodes<3>& incoming) {
+  if (!level.nodes.cell.any()) return;
+  const SurfaceIndex& index = level.geometry.domain().index();
+  for_each("pnpbs::find_facets_again", std::ssize(incoming), [&](std::int64_t k) {
+    IncomingNode<3>& node = incoming[static_cast<std::size_t>(k)];
+    if (node.carrier == Carrier::surface)
+      node.boundary_node = index.nearest(node.position, kFarAway).facet;
+  });
+}
+
 // Puts these nodes on the level and lets them come to rest on its surfaces.
 void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
                       const IncomingNodes<3>& on_features, Outcome& outcome, LevelRole role,
@@ -79,6 +91,7 @@ void rest_on_surfaces(Level<3>& level, IncomingNodes<3> on_surfaces,
 
 void settle_surfaces(Level<3>& level, IncomingNodes<3>& incoming, Outcome& outcome, LevelRole role,
                      const LevelContext<3>& context) {
+  collective_try(*level.comm, [&] { find_facets_again(level, incoming); });
   scatter_to_owners(level, incoming);
   reserve_ids(level, incoming);
   NodesByCarrier nodes(incoming);

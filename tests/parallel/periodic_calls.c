@@ -25,6 +25,7 @@ static const domain_case cases[] = {
     {"hole", 2, {1, 1}, 0.05, 1},
     {"channel", 2, {0, 1}, 0.05, 0},
     {"cube", 3, {1, 1, 1}, 0.12, 0},
+    {"layer", 3, {1, 1, 0}, 0.12, 0},
 };
 static pnpbs_context alone; /* the context of the reference */
 static char path[MAX_NAME];
