@@ -49,8 +49,8 @@ std::int64_t sum_over_ranks(const Communicator& comm, std::int64_t mine) {
   return static_cast<std::int64_t>(comm.allreduce_sum(static_cast<std::uint64_t>(mine)));
 }
 
-// Finds the facets that nodes on surfaces lie on. Those of the level that the nodes come from may
-// have other numbers, because it may have another number of copies of a periodic cell.
+// Finds the facets that nodes on surfaces lie on. The level that the nodes come from may number its
+// facets otherwise, because it may have another number of copies of a periodic cell.
 void find_facets_again(const Level<3>& level, IncomingNodes<3>& incoming) {
   if (!level.nodes.cell.any()) return;
   const SurfaceIndex& index = level.geometry.domain().index();
