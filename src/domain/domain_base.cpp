@@ -38,7 +38,6 @@ void DomainBase<Dim>::set_periodic(const Box<Dim>& box, const std::array<bool, D
   const std::vector<std::int32_t> of_sides = read_tags("tags", 2 * Dim, tags);
   cell_ = PeriodicCell<Dim>(box, periodic);
   std::ranges::copy(of_sides, side_tags_.begin());
-  for (std::size_t k = 0; k < Dim; ++k) copies_[k] = periodic[k];
   checked_ = false;
 }
 

@@ -68,32 +68,23 @@ class DomainBase {
                     const std::int32_t* tags);
   // Returns the cell of a periodic domain.
   const PeriodicCell<Dim>& cell() const { return cell_; }
-  // Resolves so many copies of a periodic domain on each side of its cell. Images of nodes have
-  // positions there, so the copies must reach as far as the computations at a node do.
-  void set_copies(const Image<Dim>& copies) {
-    checked_ = checked_ && copies == copies_;
-    copies_ = copies;
+  // Resolves the images of a periodic domain within this distance of its cell. Images of nodes have
+  // positions there, so it must be as far as the computations at a node reach.
+  void set_reach(double reach) {
+    checked_ = checked_ && reach == reach_;
+    reach_ = reach;
   }
 
  protected:
-  // Returns the number of copies on each side. Points in regions need the curves and surfaces of
-  // the next copies around them.
-  Image<Dim> copies_to_resolve() const {
-    Image<Dim> copies = copies_;
-    for (std::int32_t& along : copies)
-      if (along == 1 && !region_points_.empty()) along = 2;
-    return copies;
-  }
-
   std::vector<FixedNode<Dim>> given_nodes_;
   std::vector<RegionPoint<Dim>> region_points_;
   std::vector<Warning> given_warnings_;
   bool checked_ = false;
   // The cell of a periodic domain, the tags of its sides that bound the domain (low x, high x, low
-  // y and so on), and how many copies of it on each side check() resolves along each axis.
+  // y and so on), and the distance from it up to which check() resolves images.
   PeriodicCell<Dim> cell_;
   std::array<std::int32_t, 2 * Dim> side_tags_{};
-  Image<Dim> copies_{};
+  double reach_ = 0;
 
  private:
   GroupNames names_;

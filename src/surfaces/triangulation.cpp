@@ -8,6 +8,14 @@
 
 namespace pnpbs {
 
+namespace {
+
+std::int32_t number_of(const std::vector<std::int32_t>& numbers, std::size_t i) {
+  return numbers.empty() ? static_cast<std::int32_t>(i) : numbers[i];
+}
+
+}  // namespace
+
 void add_surface(BoundaryMesh<3>& mesh, SurfaceRole role, std::span<const Point<3>> nodes,
                  std::span<const std::array<std::int32_t, 3>> triangles,
                  std::span<const std::int32_t> tags) {
@@ -62,14 +70,14 @@ Triangulation join_surfaces(const std::vector<SurfaceSource>& surfaces) {
     all.tag_names.push_back(surface.tag_names);
     for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
       all.vertices.push_back(surface.vertices[v]);
-      all.given.push_back({source, static_cast<std::int32_t>(v)});
+      all.given.push_back({source, number_of(surface.vertex_numbers, v)});
     }
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
       const auto& [a, b, c] = surface.triangles[t];
       all.triangles.push_back({{first + a, first + b, first + c},
                                surface.tags[t],
                                source,
-                               static_cast<std::int32_t>(t),
+                               number_of(surface.triangle_numbers, t),
                                surface.role == SurfaceRole::inner,
                                surface.role == SurfaceRole::by_place,
                                surface.role == SurfaceRole::dividing});

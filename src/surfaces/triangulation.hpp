@@ -58,6 +58,8 @@ struct SurfaceSource {
   double feature_angle = kFeatureAngle;  // [degrees]
   std::vector<SurfaceCrease> creases;    // creases of a level set
   std::vector<Warning> warnings;
+  // Numbers as the user gave them, for messages. If empty, indices are the numbers.
+  std::vector<std::int32_t> vertex_numbers, triangle_numbers;
 };
 
 // A triangle of any source.
@@ -65,7 +67,7 @@ struct SurfaceTriangle {
   std::array<std::int32_t, 3> vertices;
   std::int32_t tag;
   std::int32_t source;
-  std::int32_t number;  // index in its source
+  std::int32_t number;  // in its source
   bool inner;
   bool by_place = false;  // true if `inner` is still to be determined by place
   bool dividing = false;  // true if `inner` is still to be determined for a dividing surface

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests periodic domains in one process: the nodes and the elements fill the torus without a seam."""
 import unittest
+import warnings
 
 import numpy as np
 import pnpbs
@@ -322,6 +323,121 @@ class Periodic(unittest.TestCase):
         domain.set_periodic((0, 0), (1, 1))
         placement = pnpbs.Placement(domain).set_spacing(0.3)
         self.assert_status(Status.ERROR_SPACING, "less than 4 spacings", placement.run)
+
+    def test_curves_that_do_not_meet(self):
+        domain = pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1))
+        domain.add_polyline([(0, 0.3), (0.5, 0.4), (1, 0.31)], closed=False, role="inner")
+        self.assert_status(Status.ERROR_DOMAIN, "curve 0 ends on a side of the periodic domain at "
+                           "(0, 0.3), and no curve goes on from (1, 0.3)", domain.check)
+
+    def test_surfaces_that_do_not_meet(self):
+        domain = pnpbs.Domain(self.context, 3).set_periodic((0, 0, 0), (1, 1, 1))
+        sheet = [(0, 0, 0.3), (1, 0, 0.4), (1, 1, 0.4), (0, 1, 0.3)]
+        domain.add_surface(sheet, [(0, 1, 2), (0, 2, 3)], role="inner")
+        self.assert_status(Status.ERROR_DOMAIN, "of surface 0 ends on a side of the periodic domain",
+                           domain.check)
+
+    def test_spacing_that_is_not_periodic(self):
+        placement = pnpbs.Placement(pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1)))
+        placement.set_spacing(lambda x: 0.02 + 0.04 * x[:, 1])
+        self.assert_status(Status.ERROR_SPACING, ", 0), and d = 0.06 at (0.0", placement.run)
+
+    def sphere(self, centre, radius, rounds=2):
+        """Returns the vertices and triangles of an icosahedron whose faces are divided."""
+        golden = (1 + 5 ** 0.5) / 2
+        x = [(0, s, t * golden) for s in (-1, 1) for t in (-1, 1)]
+        x = np.array([np.roll(v, k) for v in x for k in range(3)], float)
+        apart = np.linalg.norm(x[:, None] - x[None], axis=2)
+        near = (apart > 1) & (apart < 2.1)
+        faces = [(a, b, c) for a in range(12) for b in range(a) for c in range(b)
+                 if near[a, b] and near[b, c] and near[a, c]]
+        triangles = x[np.array(faces)]
+        turned = np.linalg.det(triangles) < 0
+        triangles[turned] = triangles[turned][:, ::-1]
+        for _ in range(rounds):
+            a, b, c = np.moveaxis(triangles, 1, 0)
+            ab, bc, ca = a + b, b + c, c + a
+            triangles = np.concatenate([np.stack(t, 1) for t in [
+                (a, ab / 2, ca / 2), (b, bc / 2, ab / 2), (c, ca / 2, bc / 2),
+                (ab / 2, bc / 2, ca / 2)]])
+        triangles /= np.linalg.norm(triangles, axis=2)[..., None]
+        points, corners = np.unique(triangles.reshape(-1, 3).round(12), axis=0, return_inverse=True)
+        return points * radius + centre, corners.reshape(-1, 3)
+
+    def spheres(self, count, share, seed=3):
+        """Returns the centres and the radius of spheres that do not touch on the unit torus."""
+        random = np.random.default_rng(seed)
+        radius = (share / count * 3 / 4 / np.pi) ** (1 / 3)
+        centres = random.random((count, 3))
+        for _ in range(10000):
+            way = centres[:, None] - centres[None]
+            way -= np.rint(way)
+            apart = np.linalg.norm(way, axis=2) + 9 * np.eye(count)
+            overlap = np.maximum(0, 2.15 * radius - apart)
+            if overlap.max() < 0.02 * radius:
+                return centres, radius
+            centres = (centres + 0.5 * ((overlap / apart)[..., None] * way).sum(axis=1)) % 1
+        raise AssertionError("the spheres have no room")
+
+    def test_channel_in_space(self):
+        axes = (True, False, False)
+
+        def d(x):
+            return 0.1 * (1 + 0.3 * np.sin(2 * np.pi * x[:, 0]) ** 2)
+
+        for length, spacing in [(1.07, 0.1), (1, d)]:
+            domain, torus = self.place((0, 0, 0), (length, 0.5, 0.5), axes, spacing)
+            self.assertAlmostEqual(torus.measures().sum(), 0.25 * length, 10)
+
+    def test_crease_across_a_side(self):
+        low, high = (0, 0, 0), (1, 1, 1)
+        x, y = np.meshgrid([0, 0.53, 1], [0, 1])
+        roof = np.column_stack([x.ravel(), y.ravel(), np.where(x == 0.53, 0.7, 0.3).ravel()])
+        domain = pnpbs.Domain(self.context, 3).set_periodic(low, high, (True, True, False))
+        domain.add_surface(roof, [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4)], role="inner", tags=4)
+        domain.add_region((0.5, 0.5, 0.1), 2).add_region((0.1, 0.1, 0.9), 3)
+
+        def d(x):
+            return 0.11 * (1 + 0.3 * np.sin(2 * np.pi * x[:, 1]) ** 2)
+
+        placement = pnpbs.Placement(domain).set_spacing(d)
+        placement.run()
+        placement.check()
+        torus = Torus(placement, low, high, (True, True, False))
+        self.assert_valid(torus)
+        inside = np.bincount(placement.element_tags(), torus.measures())
+        np.testing.assert_allclose(inside, [0, 0, 0.5, 0.5], atol=1e-10)
+
+    def test_many_cavities(self):
+        centres, radius = self.spheres(60, 0.3)
+        domain = pnpbs.Domain(self.context, 3).set_periodic((0, 0, 0), (1, 1, 1))
+        points, corners = self.sphere((0, 0, 0), radius)
+        for centre in centres:
+            domain.add_surface(points + centre, corners)
+        domain.check()
+        volume = 1 - len(centres) * np.linalg.det(points[corners]).sum() / 6
+        self.assertAlmostEqual(domain.measure(), volume, 12)
+
+    def test_spheres_across_a_side(self):
+        low, high, radius = (0, 0, 0), (1.2, 0.7, 0.7), 0.22
+        domain = pnpbs.Domain(self.context, 3).set_periodic(low, high, (True, False, False))
+        points, corners = self.sphere((0, 0, 0), radius)
+        for k, x in enumerate([-0.1, 0.5]):
+            domain.add_surface(points + (x, 0.35, 0.35), corners, role="inner", tags=5)
+            domain.add_region((x, 0.35, 0.35), 2 + k)
+        placement = pnpbs.Placement(domain).set_spacing(0.1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", pnpbs.ElementsWarning)
+            placement.run()
+        placement.check()
+        torus = Torus(placement, low, high, (True, False, False))
+        self.assert_valid(torus)
+        regions = np.bincount(placement.element_tags(), torus.measures())
+        self.assertAlmostEqual(regions.sum(), np.prod(high), 10)
+        # Chords of a sphere with a radius of two spacings lie well inside of it.
+        enclosed = np.linalg.det(points[corners]).sum() / 6
+        self.assertEqual(len(regions), 4)
+        self.assertLess(np.abs(regions[2:] / enclosed - 0.92).max(), 0.03)
 
     def test_unsupported(self):
         domain = pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1))

@@ -22,11 +22,9 @@ struct CopiesOfCell {
       in_cell;  // nonzero for sources as they were given, and for the sides of the cell
 };
 
-// Returns so many copies on each side, and a boundary around all of them. Closed curves that meet
-// this boundary are left out; they are about as far from the cell as it is. Throws
-// Error(ErrorKind::domain) if a curve that ends on a side of the cell does not go on at the
-// opposite side.
-CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, const Image<2>& copies,
+// Returns the images of the curves within `reach` of the cell (domain/images_near_cell.hpp), and a
+// boundary around the copies that contain them.
+CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, double reach,
                             const std::array<std::int32_t, 4>& side_tags,
                             const std::vector<CurveSource>& sources,
                             const std::vector<RegionPoint<2>>& region_points,

@@ -408,8 +408,8 @@ void PlaneDomain::check_periodic() {
     if (source.kind == CurveSource::Kind::graph) find_corners(source, corner_angle_);
   if (auto warning = snap_loose_points(sources_, given_nodes_, snap_))
     add_warning(std::move(*warning));
-  CopiesOfCell copies = copies_of_cell(cell_, copies_to_resolve(), side_tags_, sources_,
-                                       region_points_, given_nodes_);
+  CopiesOfCell copies =
+      copies_of_cell(cell_, reach_, side_tags_, sources_, region_points_, given_nodes_);
   resolved_ = resolve_domain(copies.sources, copies.region_points, copies.fixed_nodes, fragment_);
   resolved_.area = area_of_cell(cell_, resolved_.curves, copies.in_cell);
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),

@@ -2,22 +2,30 @@
 #include "domain/volume/copies_of_cell.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
 #include <utility>
 
-#include "tree/box_tree.hpp"
+#include "base/error.hpp"
+#include "base/index.hpp"
+#include "base/limits.hpp"
+#include "base/point_text.hpp"
+#include "base/space_vectors.hpp"
+#include "domain/domain_size.hpp"
+#include "domain/images_near_cell.hpp"
+#include "geometry/volume/triangles.hpp"
+#include "geometry/volume/welding.hpp"
+#include "geometry/volume/winding_number.hpp"
+#include "surfaces/surface_edges.hpp"
 
 namespace pnpbs {
 
 namespace {
 
-Image<3> opposite(const Image<3>& image) { return {-image[0], -image[1], -image[2]}; }
-
-Box<3> box_of(const std::vector<Point<3>>& points) {
-  Box<3> box{points[0], points[0]};
-  for (const Point<3>& x : points) box = joined(box, {x, x});
-  return box;
-}
+// Distance within which points of opposite sides are the same point. [size of the cell]
+constexpr double kSameOnSides = 1e-9;
 
 // The surface of a box, divided at the periods, so that the triangles of its sides are images of
 // each other.
@@ -70,52 +78,231 @@ class SidesOfBox {
   SurfaceSource surface_;
 };
 
+// Triangles that are connected by edges form a part.
+class PartsOfSurfaces {
+ public:
+  explicit PartsOfSurfaces(const std::vector<SurfaceSource>& surfaces)
+      : surface_(join_surfaces(surfaces)) {
+    weld();
+    const SurfaceEdges edges(surface_);
+    UnionFind<std::int32_t> groups = connected_triangles(surface_, edges);
+    const auto count = static_cast<std::int32_t>(surface_.triangles.size());
+    for (std::int32_t t = 0; t < count; ++t) {
+      const std::int32_t root = groups.root(t);
+      if (root == t) {
+        parts_.push_back({empty_box<3>(), true, surface_.corners(t)[0], {}});
+        corners_.emplace_back();
+      }
+      part_.push_back(root == t ? parts_.size() - 1 : part_[index(root)]);
+      parts_[part_.back()].box = joined(parts_[part_.back()].box, surface_.box(t));
+      corners_[part_.back()].push_back(surface_.corners(t));
+    }
+    for (std::size_t e = 0; e < edges.count(); ++e) {
+      if (edges.sides(e).size() != 1) continue;
+      const std::int32_t t = edges.sides(e)[0].triangle;
+      parts_[part_[index(t)]].closed = false;
+      rim_.push_back({edges.ends(e), {vertex(edges.ends(e)[0]), vertex(edges.ends(e)[1])}, t});
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      parts_[p].encloses = [winding = WindingNumber(std::move(corners_[p]))](const Point<3>& x) {
+        return std::fabs(winding(x)) > 0.5;
+      };
+  }
+
+  // Throws Error(ErrorKind::domain) if a surface ends on a periodic side of the cell and none goes
+  // on from there at the opposite side.
+  void require_continued(const PeriodicCell<3>& cell) const {
+    const double same = kSameOnSides * size_of(cell.box());
+    std::vector<Box<3>> boxes;
+    for (const RimEdge& edge : rim_)
+      boxes.push_back(
+          widened(joined(Box<3>{edge.ends[0], edge.ends[0]}, {edge.ends[1], edge.ends[1]}), same));
+    const BoxTree<3> tree(std::move(boxes));
+    const auto ends_at = [&](const Point<3>& x) {
+      bool found = false;
+      tree.for_holding(x, [&](std::int32_t e) {
+        const auto& [a, b] = rim_[index(e)].ends;
+        const Point<3> along = difference(b, a), to = difference(x, a);
+        found = found || length(cross(along, to)) <= same * length(along);
+      });
+      return found;
+    };
+    for (const RimEdge& edge : rim_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!cell.periodic(static_cast<int>(k))) continue;
+        for (const double sign : {1.0, -1.0}) {
+          const double side = sign > 0 ? cell.box().low[k] : cell.box().high[k];
+          const auto& [a, b] = edge.ends;
+          if (std::fabs(a[k] - side) > same || std::fabs(b[k] - side) > same) continue;
+          for (const Point<3>& x : {a, halfway(a, b), b}) {
+            Point<3> opposite = x;
+            opposite[k] += sign * cell.period(static_cast<int>(k));
+            if (ends_at(opposite)) continue;
+            reject_domain(surface_.triangle_name(edge.triangle) +
+                          " ends on a side of the periodic domain at " + point_text(x) +
+                          ", and no surface goes on from " + point_text(opposite) +
+                          " at the opposite side: let surfaces end at the same points of both "
+                          "sides");
+          }
+        }
+      }
+  }
+
+  // Returns the points at which sharp edges may cross the periodic sides of the cell: where
+  // triangles with different normals end there. Nodes on an edge repeat with the periods only if
+  // they are placed between such points.
+  std::vector<Point<3>> creases_at_sides(const PeriodicCell<3>& cell, double feature_angle) const {
+    const double same = kSameOnSides * size_of(cell.box());
+    const double cosine = std::cos(feature_angle * std::numbers::pi / 180);
+    std::map<std::int32_t, std::vector<Point<3>>> normals;  // of the triangles at vertices
+    for (const RimEdge& edge : rim_)
+      for (const std::int32_t v : edge.vertices)
+        for (int k = 0; k < 3; ++k)
+          if (cell.periodic(k) && std::min(std::fabs(vertex(v)[k] - cell.box().low[k]),
+                                           std::fabs(vertex(v)[k] - cell.box().high[k])) <= same)
+            normals[v];
+    for (std::size_t t = 0; t < surface_.triangles.size() && !normals.empty(); ++t)
+      for (const std::int32_t v : surface_.triangles[t].vertices)
+        if (const auto at = normals.find(v); at != normals.end())
+          at->second.push_back(
+              unit_vector(area_normal(surface_.corners(static_cast<std::int32_t>(t)))));
+    std::vector<Point<3>> points;
+    for (const auto& [v, of] : normals)
+      if (std::ranges::any_of(of,
+                              [&](const Point<3>& n) { return std::fabs(dot(n, of[0])) < cosine; }))
+        points.push_back(vertex(v));
+    return points;
+  }
+
+  // Returns the part of each triangle. The triangles of all surfaces are numbered consecutively.
+  const std::vector<std::size_t>& of_triangles() const { return part_; }
+  std::vector<ConnectedPart<3>> take() { return std::move(parts_); }
+
+ private:
+  // An edge of a single triangle.
+  struct RimEdge {
+    std::array<std::int32_t, 2> vertices;
+    std::array<Point<3>, 2> ends;
+    std::int32_t triangle;
+  };
+
+  const Point<3>& vertex(std::int32_t v) const { return surface_.vertices[index(v)]; }
+
+  void weld() {
+    Box<3> box = empty_box<3>();
+    for (const Point<3>& x : surface_.vertices) include(box, x);
+    const std::vector<std::int32_t> joined =
+        weld_points(surface_.vertices, kSameVertex * size_of(box));
+    for (SurfaceTriangle& triangle : surface_.triangles)
+      for (std::int32_t& v : triangle.vertices) v = joined[index(v)];
+  }
+
+  Triangulation surface_;
+  std::vector<std::size_t> part_;
+  std::vector<ConnectedPart<3>> parts_;
+  std::vector<std::vector<FacetCorners<3>>> corners_;  // of the triangles of each part
+  std::vector<RimEdge> rim_;
+};
+
+// The triangles of a surface that have an image in a copy of the cell, and whether they stand for
+// theirs in the cell.
+struct SurfaceInCopy {
+  SurfaceSource surface;
+  std::vector<char> in_cell;
+};
+
+SurfaceInCopy surface_in_copy(const SurfaceSource& surface, const std::size_t* part,
+                              const ImagesNearCell<3>& images, const Image<3>& image) {
+  SurfaceInCopy in{surface, {}};
+  SurfaceSource& copy = in.surface;
+  copy.vertices.clear();
+  copy.triangles.clear();
+  copy.tags.clear();
+  std::vector<std::int32_t> vertex(surface.vertices.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!images.has(part[t], image)) continue;
+    std::array<std::int32_t, 3> corners = surface.triangles[t];
+    for (std::int32_t& v : corners) {
+      std::int32_t& of_copy = vertex[index(v)];
+      if (of_copy < 0) {
+        of_copy = static_cast<std::int32_t>(copy.vertices.size());
+        copy.vertices.push_back(images.moved(image, surface.vertices[index(v)]));
+        copy.vertex_numbers.push_back(v);
+      }
+      v = of_copy;
+    }
+    copy.triangles.push_back(corners);
+    copy.triangle_numbers.push_back(static_cast<std::int32_t>(t));
+    copy.tags.push_back(surface.tags[t]);
+    in.in_cell.push_back(images.is_home(part[t], image));
+  }
+  return in;
+}
+
+// Adds nodes at points, each once on the torus, where no node is given yet.
+void add_nodes(const PeriodicCell<3>& cell, const std::vector<Point<3>>& points, std::int32_t tag,
+               std::vector<FixedNode<3>>& nodes) {
+  const double same = kSameOnSides * size_of(cell.box());
+  const auto is_at = [&](const Point<3>& a, const Point<3>& b) {
+    for (int k = 0; k < 3; ++k) {
+      double gap = std::fabs(a[k] - b[k]);
+      if (cell.periodic(k)) gap -= cell.period(k) * std::round(gap / cell.period(k));
+      if (std::fabs(gap) > same) return false;
+    }
+    return true;
+  };
+  for (const Point<3>& x : points)
+    if (std::ranges::none_of(nodes,
+                             [&](const FixedNode<3>& node) { return is_at(node.position, x); }))
+      nodes.push_back({x, tag, "a node on a periodic side"});
+}
+
+// Returns the points of the periodic sides where two walls meet. Walls meet along a periodic axis
+// only if it is the only one.
+std::vector<Point<3>> corners_of_walls(const PeriodicCell<3>& cell) {
+  if (cell.periodic(0) + cell.periodic(1) + cell.periodic(2) != 1) return {};
+  std::vector<Point<3>> corners;
+  for (int corner = 0; corner < 8; ++corner) {
+    Point<3> x = cell.box().low;
+    for (int k = 0; k < 3; ++k)
+      if (!cell.periodic(k) && (corner >> k & 1) != 0) x[k] = cell.box().high[k];
+    corners.push_back(x);
+  }
+  return corners;
+}
+
 }  // namespace
 
-CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, const Image<3>& copies,
+CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, double reach, bool divides,
                                 const std::array<std::int32_t, 6>& side_tags,
                                 const std::vector<SurfaceSource>& surfaces,
                                 const std::vector<RegionPoint<3>>& region_points,
                                 const std::vector<FixedNode<3>>& fixed_nodes) {
+  PartsOfSurfaces parts(surfaces);
+  parts.require_continued(cell);
+  const ImagesNearCell<3> images(cell, reach, !region_points.empty(), divides, parts.take());
   CopiesOfSurfaces all;
-  all.surfaces.push_back(SidesOfBox(cell, copies, side_tags).take());
-  all.in_cell.push_back(0);
-  const Box<3> outer = box_of(all.surfaces[0].vertices);
-  const auto crosses_outer = [&](const Box<3>& box) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (cell.periodic(static_cast<int>(k)) &&
-          (box.low[k] <= outer.low[k] || box.high[k] >= outer.high[k]))
-        return true;
-    return false;
-  };
-  for (std::int32_t z = -copies[2]; z <= copies[2]; ++z)
-    for (std::int32_t y = -copies[1]; y <= copies[1]; ++y)
-      for (std::int32_t x = -copies[0]; x <= copies[0]; ++x) {
-        const Image<3> image{x, y, z};
-        const auto moved = [&](const Point<3>& at) {
-          return cell.seen_from(opposite(image), cell.rounded(at));
-        };
-        for (const SurfaceSource& surface : surfaces) {
-          SurfaceSource copy = surface;
-          for (Point<3>& vertex : copy.vertices) vertex = moved(vertex);
-          if (crosses_outer(box_of(copy.vertices))) continue;
-          all.surfaces.push_back(std::move(copy));
-          all.in_cell.push_back(image == Image<3>{});
-        }
-        // The surfaces around a point in an outermost copy may be left out.
-        bool outermost = false;
-        for (std::size_t k = 0; k < 3; ++k)
-          outermost = outermost || (copies[k] > 0 && std::abs(image[k]) == copies[k]);
-        for (RegionPoint<3> point : region_points) {
-          if (outermost) break;
-          point.point = moved(cell.in_cell(cell.rounded(point.point)));
-          all.region_points.push_back(std::move(point));
-        }
-        for (FixedNode<3> node : fixed_nodes) {
-          node.position = moved(cell.in_cell(cell.rounded(node.position)));
-          all.fixed_nodes.push_back(std::move(node));
-        }
-      }
+  all.touch = divides && images.any_open();
+  all.surfaces.push_back(SidesOfBox(cell, images.copies(), side_tags).take());
+  all.in_cell.assign(all.surfaces[0].triangles.size(), 0);
+  images.for_copies([&](const Image<3>& image) {
+    const std::size_t* part = parts.of_triangles().data();
+    for (const SurfaceSource& surface : surfaces) {
+      SurfaceInCopy copy = surface_in_copy(surface, part, images, image);
+      part += surface.triangles.size();
+      if (copy.in_cell.empty()) continue;
+      all.surfaces.push_back(std::move(copy.surface));
+      all.in_cell.insert(all.in_cell.end(), copy.in_cell.begin(), copy.in_cell.end());
+    }
+  });
+  all.region_points = images.images_of(region_points);
+  std::vector<FixedNode<3>> nodes = fixed_nodes;
+  double feature_angle = kFeatureAngle;
+  for (const SurfaceSource& surface : surfaces)
+    feature_angle = std::min(feature_angle, surface.feature_angle);
+  add_nodes(cell, corners_of_walls(cell), *std::ranges::max_element(side_tags), nodes);
+  add_nodes(cell, parts.creases_at_sides(cell, feature_angle), 1, nodes);
+  all.fixed_nodes = images.images_of(nodes);
   return all;
 }
 

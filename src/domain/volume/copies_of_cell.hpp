@@ -15,14 +15,16 @@ namespace pnpbs {
 
 struct CopiesOfSurfaces {
   std::vector<SurfaceSource> surfaces;
-  std::vector<char> in_cell;  // nonzero for surfaces as they were given
+  bool touch;                 // some surfaces end at the surface of the box
+  std::vector<char> in_cell;  // nonzero for triangles that stand for their images
   std::vector<RegionPoint<3>> region_points;
   std::vector<FixedNode<3>> fixed_nodes;
 };
 
-// Returns so many copies on each side, and the surface of a box around all of them. Surfaces that
-// cross this box are left out; they are about as far from the cell as it is.
-CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, const Image<3>& copies,
+// Returns the images of the surfaces within `reach` of the cell (domain/images_near_cell.hpp), and
+// the surface of a box around the copies that contain them. `divides` is whether surfaces are split
+// where they meet.
+CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, double reach, bool divides,
                                 const std::array<std::int32_t, 6>& side_tags,
                                 const std::vector<SurfaceSource>& surfaces,
                                 const std::vector<RegionPoint<3>>& region_points,

@@ -482,10 +482,16 @@ void VolumeDomain::check_periodic() {
   if (!polylines_.empty()) reject_domain("a periodic domain in space has no inner curves");
   for (const SurfaceSource& surface : surfaces_)
     if (surface.level_set) reject_domain("a periodic domain has no level sets");
-  CopiesOfSurfaces copies = copies_of_cell(cell_, copies_to_resolve(), side_tags_, surfaces_,
-                                           region_points_, given_nodes_);
+  // Splitting changes the meaning of boundary surfaces: they are solids then, and no cavities.
+  const bool all_inner = roles_.empty() && std::ranges::all_of(surfaces_, [](const auto& surface) {
+                           return surface.role == SurfaceRole::inner;
+                         });
+  const bool divides = fragment_ || (all_inner && !repair_);
+  CopiesOfSurfaces copies =
+      copies_of_cell(cell_, reach_, divides, side_tags_, surfaces_, region_points_, given_nodes_);
   VolumeDomain copied = *this;
   copied.cell_ = {};
+  if (copies.touch && !fragment_) copied.fragment_ = OverlapRule::last;
   copied.surfaces_ = std::move(copies.surfaces);
   copied.region_points_ = std::move(copies.region_points);
   copied.given_nodes_ = std::move(copies.fixed_nodes);
@@ -494,31 +500,25 @@ void VolumeDomain::check_periodic() {
   resolved_ = copied.resolved_;
   named_by_groups_ = copied.named_by_groups_;
   names() = copied.names();
-  cell_volume_ = volume_of_cell(copied.surfaces_, copies.in_cell);
+  cell_volume_ = volume_of_cell(copies.in_cell);
   checked_ = true;
 }
 
 // Returns the volume of one period: that of the box and, with a negative sign, that of the cavities
 // that surfaces in the cell enclose. The facets are those of the surfaces, in their order, unless
 // surfaces were split; then there are no cavities.
-double VolumeDomain::volume_of_cell(const std::vector<SurfaceSource>& copies,
-                                    const std::vector<char>& in_cell) const {
+double VolumeDomain::volume_of_cell(const std::vector<char>& in_cell) const {
   double volume = 1;
   for (std::size_t k = 0; k < 3; ++k) volume *= cell_.box().high[k] - cell_.box().low[k];
-  std::size_t triangles = 0, facet = 0;
-  for (const SurfaceSource& surface : copies) triangles += surface.triangles.size();
-  if (static_cast<std::int64_t>(triangles) != summary().triangles) return volume;
-  for (std::size_t s = 0; s < copies.size(); ++s) {
-    const std::size_t end = facet + copies[s].triangles.size();
-    for (; facet < end; ++facet) {
-      const BoundaryTriangle& of = mesh().facets[facet];
-      if (!in_cell[s] || !of.bounds()) continue;
-      const FacetCorners<3> x = corners_of(mesh(), of);
-      const Point<3>& low = cell_.box().low;
-      const double part =
-          dot(difference(x[0], low), cross(difference(x[1], low), difference(x[2], low))) / 6;
-      volume += of.back_inside ? part : -part;
-    }
+  if (std::ssize(in_cell) != summary().triangles) return volume;
+  for (std::size_t f = 0; f < in_cell.size(); ++f) {
+    const BoundaryTriangle& facet = mesh().facets[f];
+    if (in_cell[f] == 0 || !facet.bounds()) continue;
+    const FacetCorners<3> x = corners_of(mesh(), facet);
+    const Point<3>& low = cell_.box().low;
+    const double part =
+        dot(difference(x[0], low), cross(difference(x[1], low), difference(x[2], low))) / 6;
+    volume += facet.back_inside ? part : -part;
   }
   return volume;
 }

@@ -165,8 +165,7 @@ class VolumeDomain : public DomainBase<3> {
 
  private:
   void check_periodic();
-  double volume_of_cell(const std::vector<SurfaceSource>& copies,
-                        const std::vector<char>& in_cell) const;
+  double volume_of_cell(const std::vector<char>& in_cell) const;
   GivenVolume given() const;
   std::unique_ptr<ResolvedVolume> resolve_touching() const;
   std::unique_ptr<ResolvedVolume> resolve_fragments() const;
