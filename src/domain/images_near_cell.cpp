@@ -36,9 +36,10 @@ ImagesNearCell<Dim>::ImagesNearCell(const PeriodicCell<Dim>& cell, double reach,
     any_open_ = any_open_ || !part.closed;
   }
   for (std::size_t p = 0; p < parts_.size(); ++p)
-    for_parts_around(parts_[p].on, [&](std::size_t around, const Image<Dim>& image) {
-      extents_[p] = joined(extents_[p], moved(image, parts_[around].box));
-    });
+    if (parts_[p].closed)
+      for_parts_around(parts_[p].on, [&](std::size_t around, const Image<Dim>& image) {
+        extents_[p] = joined(extents_[p], moved(image, parts_[around].box));
+      });
   for (std::size_t k = 0; k < Dim; ++k)
     if (cell.periodic(static_cast<int>(k))) copies_[k] = copies_along(k, reach, has_regions);
 }
@@ -89,7 +90,8 @@ bool ImagesNearCell<Dim>::has(std::size_t part, const Image<Dim>& image) const {
 
 template <int Dim>
 bool ImagesNearCell<Dim>::is_home(std::size_t part, const Image<Dim>& image) const {
-  return cell_.image_of(moved(image, parts_[part].box.low)) == Image<Dim>{};
+  return parts_[part].closed ? cell_.image_of(moved(image, parts_[part].box.low)) == Image<Dim>{}
+                             : image == Image<Dim>{};
 }
 
 // Calls visit(part, image) for the images of closed parts that enclose x.

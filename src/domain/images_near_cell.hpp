@@ -12,7 +12,7 @@
 
 namespace pnpbs {
 
-// Curves or surfaces that are connected.
+// Curves or surfaces that are connected, or a part of them if they are not closed.
 template <int Dim>
 struct ConnectedPart {
   Box<Dim> box;

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests periodic domains in one process: the nodes and the elements fill the torus without a seam."""
+import itertools
 import unittest
 import warnings
 
 import numpy as np
 import pnpbs
+import scipy.spatial
 from pnpbs import PNPBSError, Status
 
 LOW, HIGH = np.array([-0.3, 0.2, 1.0]), np.array([0.7, 1.5, 1.9])
@@ -407,6 +409,36 @@ class Periodic(unittest.TestCase):
         self.assert_valid(torus)
         inside = np.bincount(placement.element_tags(), torus.measures())
         np.testing.assert_allclose(inside, [0, 0, 0.5, 0.5], atol=1e-10)
+
+    def test_polycrystal(self):
+        centres = np.array([(0.1, 0.2, 0.3), (0.63, 0.7, 0.81)])  # nearly truncated octahedra
+        grains = len(centres)
+        shifts = np.array(list(itertools.product((0, -1, 1), repeat=3)))
+        copies = (centres + shifts[:, None]).reshape(-1, 3)
+        cells = scipy.spatial.Voronoi(copies)
+        points, triangles, seen = [], [], set()
+        for (a, b), face in zip(cells.ridge_points, cells.ridge_vertices):
+            if min(a, b) >= grains:
+                continue
+            middle = np.round(copies[[a, b]].mean(axis=0) % 1, 9) % 1  # the same for all images
+            if tuple(middle) not in seen:
+                seen.add(tuple(middle))
+                first = len(points)
+                points.extend(cells.vertices[face])
+                triangles += [(first, first + k, first + k + 1) for k in range(1, len(face) - 1)]
+        domain = pnpbs.Domain(self.context, 3).set_periodic((0, 0, 0), (1, 1, 1))
+        domain.add_surface(np.array(points), triangles, role="inner", tags=10, feature_angle=5)
+        for k, centre in enumerate(centres):
+            domain.add_region(centre, 2 + k)
+        placement = pnpbs.Placement(domain).set_spacing(0.13)
+        placement.run()
+        placement.check()
+        torus = Torus(placement, (0, 0, 0), (1, 1, 1), (True, True, True))
+        self.assert_valid(torus)
+        volumes = [scipy.spatial.ConvexHull(cells.vertices[cells.regions[cells.point_region[k]]])
+                   .volume for k in range(grains)]
+        found = np.bincount(placement.element_tags(), torus.measures())
+        np.testing.assert_allclose(found, [0, 0, *volumes], atol=1e-9)
 
     def test_many_cavities(self):
         centres, radius = self.spheres(60, 0.3)

@@ -78,7 +78,8 @@ class SidesOfBox {
   SurfaceSource surface_;
 };
 
-// Triangles that are connected by edges form a part.
+// Triangles that are connected by edges form a part if they are closed. Any other triangle is a
+// part of its own.
 class PartsOfSurfaces {
  public:
   explicit PartsOfSurfaces(const std::vector<SurfaceSource>& surfaces)
@@ -87,21 +88,25 @@ class PartsOfSurfaces {
     const SurfaceEdges edges(surface_);
     UnionFind<std::int32_t> groups = connected_triangles(surface_, edges);
     const auto count = static_cast<std::int32_t>(surface_.triangles.size());
-    for (std::int32_t t = 0; t < count; ++t) {
-      const std::int32_t root = groups.root(t);
-      if (root == t) {
-        parts_.push_back({empty_box<3>(), true, surface_.corners(t)[0], {}});
-        corners_.emplace_back();
-      }
-      part_.push_back(root == t ? parts_.size() - 1 : part_[index(root)]);
-      parts_[part_.back()].box = joined(parts_[part_.back()].box, surface_.box(t));
-      corners_[part_.back()].push_back(surface_.corners(t));
-    }
+    std::vector<char> open(index(count));  // per root
     for (std::size_t e = 0; e < edges.count(); ++e) {
       if (edges.sides(e).size() != 1) continue;
       const std::int32_t t = edges.sides(e)[0].triangle;
-      parts_[part_[index(t)]].closed = false;
+      open[index(groups.root(t))] = 1;
       rim_.push_back({edges.ends(e), {vertex(edges.ends(e)[0]), vertex(edges.ends(e)[1])}, t});
+    }
+    for (std::int32_t t = 0; t < count; ++t) {
+      const std::int32_t root = groups.root(t);
+      const bool closed = open[index(root)] == 0;
+      if (root == t || !closed) {
+        part_.push_back(parts_.size());
+        parts_.push_back({empty_box<3>(), closed, surface_.corners(t)[0], {}});
+        corners_.emplace_back();
+      } else {
+        part_.push_back(part_[index(root)]);
+      }
+      parts_[part_.back()].box = joined(parts_[part_.back()].box, surface_.box(t));
+      if (closed) corners_[part_.back()].push_back(surface_.corners(t));
     }
     for (std::size_t p = 0; p < parts_.size(); ++p)
       parts_[p].encloses = [winding = WindingNumber(std::move(corners_[p]))](const Point<3>& x) {
