@@ -14,7 +14,7 @@ namespace pnpbs {
 
 namespace {
 
-constexpr double kReach = 20;       // distance up to which a node depends on others at once [d]
+constexpr double kReach = 26;       // distance up to which a node depends on others at once [d]
 constexpr double kLeastPeriod = 4;  // [d]
 
 // Returns the largest of some samples of d in the cell.
