@@ -34,7 +34,7 @@ set(PNPBS_TESTS_OF_quick
     command_input command_mpas command_regions command_shape_spacing command_stopping volume_files
     # languages
     fortran_library fortran_domain fortran_placement fortran_ranks_3
-    python_declarations python_package python_periodic python_ranks_3
+    python_declarations python_package python_periodic python_periodic_files python_ranks_3
     julia_ccalls julia_package
     # as a library, installed, documented
     linkage_abi linkage_abi_geo linkage_bad_environment linkage_dlopen linkage_exceptions linkage_exports

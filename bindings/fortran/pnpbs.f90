@@ -1184,8 +1184,8 @@ contains
   !> Coordinates along a periodic axis, and the period, are rounded to multiples of 2**(-50) times
   !> the largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and
   !> inner curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
-  !> elements, distributed meshes, Voronoi cells, particles and cracks. Local. initialise and run
-  !> return PNPBS_ERROR_SPACING if a period is shorter than four spacings.
+  !> elements of second order, distributed meshes, Voronoi cells, particles and cracks. Local.
+  !> initialise and run return PNPBS_ERROR_SPACING if a period is shorter than four spacings.
   !>   low, high  (dim) corners of the box
   !>   periodic   (dim) true along the axes on which the domain is periodic
   !>   tags       (2 dim) of the other sides: low x, high x, low y, ...; all are 1 if absent

@@ -391,8 +391,15 @@ PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t ov
  *  Coordinates along a periodic axis are multiples of 2^-50 times the largest coordinate of an
  *  image, and so is the period, which is rounded to it. So the node set does not depend on the
  *  ranks, like that of other domains. Not on a sphere, nor for surfaces alone, level sets and inner
- *  curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with
- *  elements, distributed meshes, Voronoi cells, particles and cracks.
+ *  curves in space. Not yet for a periodic domain, but PNPBS_ERROR_UNSUPPORTED: files with elements
+ *  of second order, distributed meshes, Voronoi cells, particles and cracks.
+ *
+ *  Files have the elements of the torus once, cut open: each is where the least of its corners
+ *  along an axis is in the box, so elements extend beyond the upper sides only. A corner there is a
+ *  copy of a node. Copies follow the nodes and have their ids, tags and fields. .msh and .msh2
+ *  files have pairs of copies and nodes in $Periodic; .vtu, .vtkhdf and .xdmf files have an array
+ *  partner, for a copy the index of its node, for a node its own. Other files with elements have
+ *  the copies as nodes, but for .pvtu, .gr3 and .2dm, which are PNPBS_ERROR_UNSUPPORTED.
  *
  *  Local. Errors: PNPBS_ERROR_ARGUMENT. pnpbs_placement_initialise and _run return
  *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.

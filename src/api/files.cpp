@@ -18,9 +18,6 @@ pnpbs_status pnpbs_placement_write_files(pnpbs_placement placement, int32_t n,
     const std::vector<io::FileRequest> requests =
         requests_of(n, paths, formats, elements, io::requested_of(*object.placement));
     require_same_requests(object.placement->communicator(), requests);
-    for (const io::FileRequest& request : requests)
-      if (request.order > 0 || request.facets)
-        require_not_periodic(object.placement->results(), "no file has the elements");
     io::write_files(*object.placement, object.output_fields, requests);
     return PNPBS_OK;
   });

@@ -101,6 +101,7 @@ std::vector<GridArray> point_data(const Contents& all) {
   if (!all.is_beside) {
     data.push_back(of_nodes("tag", all, &NodeRows::tags));
     data.push_back(of_nodes("spacing", all, &NodeRows::spacing));
+    if (all.is_periodic) data.push_back(of_nodes("partner", all, &NodeRows::partners));
     for (std::size_t k = 0; k < all.field_count(); ++k) data.push_back(field_array(all, k));
   }
   if (all.is_piece) data.push_back(of_nodes("vtkGhostType", all, &NodeRows::ghosts));

@@ -9,6 +9,7 @@
 
 #include "io/msh_data.hpp"
 #include "io/msh_groups.hpp"
+#include "io/msh_periodic.hpp"
 #include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
@@ -47,6 +48,7 @@ class Writer {
         all_(nodes.contents()),
         file_(file),
         groups_(msh_groups(nodes)),
+        periodic_(nodes, groups_, file),
         node_data_(nodes) {}
 
   void write() {
@@ -57,6 +59,7 @@ class Writer {
     write_entities();
     write_nodes();
     write_elements();
+    periodic_.append(4, file_);
     node_data_.append(blocks_of_nodes(), file_);
   }
 
@@ -125,6 +128,8 @@ class Writer {
     if (!groups_.tagged.empty())
       counts[static_cast<std::size_t>(groups_.tagged[0].dimension)] = groups_.tagged.size();
     if (has_inside()) ++counts[static_cast<std::size_t>(all_.dimension)];
+    const std::vector<MshGroup> links = periodic_.entities(groups_.inside.rows);
+    counts[static_cast<std::size_t>(all_.dimension - 1)] += links.size();
     file_.append_text("$Entities\n");
     file_.append([&](Sink& sink) {
       if (!file_.is_first()) return;
@@ -132,13 +137,20 @@ class Writer {
         sink.number(counts[d]);
         sink.text(d < 3 ? " " : "\n");
       }
-      for (std::size_t g = 0; g < group_count(); ++g)
+      for (std::size_t g = 0; g < group_count(); ++g) {
+        if (g == groups_.tagged.size()) write_links(links, sink);
         write_entity(std::to_string(group(g).number), group(g), true, sink);
+      }
+      if (groups_.regions.empty()) write_links(links, sink);
       if (has_inside())
         write_entity(std::to_string(groups_.inside.number), groups_.inside, has_inside_elements(),
                      sink);
     });
     file_.append_text("$EndEntities\n");
+  }
+
+  static void write_links(const std::vector<MshGroup>& links, Sink& sink) {
+    for (const MshGroup& link : links) write_entity(std::to_string(link.number), link, false, sink);
   }
 
   // ------------------------------------------------------------ nodes
@@ -355,6 +367,7 @@ class Writer {
   const Contents& all_;
   SharedFile& file_;
   MshGroups groups_;
+  MshPeriodic periodic_;
   std::vector<std::int64_t> node_counts_;  // nodes of each group
   std::int64_t inside_nodes_ = 0;          // nodes of no group
   RowsByTag<BufferedNode> held_nodes_;

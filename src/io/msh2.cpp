@@ -8,6 +8,7 @@
 
 #include "io/msh_data.hpp"
 #include "io/msh_groups.hpp"
+#include "io/msh_periodic.hpp"
 #include "io/numbered_rows.hpp"
 
 namespace pnpbs::io {
@@ -123,6 +124,7 @@ void write_msh2(const NodeSource& nodes, SharedFile& file) {
     write_nodes_as_elements(nodes, file);
   }
   file.append_text("$EndElements\n");
+  MshPeriodic(nodes, groups, file).append(2, file);
   append_node_data(nodes, file);
 }
 

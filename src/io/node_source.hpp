@@ -32,7 +32,9 @@ struct Contents {
   bool with_regions = false;   // elements have tags of regions
   bool is_beside = false;      // a grid of the facets that belongs to a grid of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
-  const GroupNames* names = nullptr;                 // names of tags; nullptr for pieces
+  bool is_periodic = false;           // elements beside the cell have copies of nodes
+  std::array<double, 3> periods{};    // along the axes; 0 along those that are not periodic
+  const GroupNames* names = nullptr;  // names of tags; nullptr for pieces
   const std::vector<OutputField>* fields = nullptr;  // nullptr: no output fields
 
   std::size_t field_count() const { return fields ? fields->size() : 0; }
@@ -60,6 +62,10 @@ struct NodeRows {
   std::vector<std::int32_t> regions;
   std::vector<double> spacing;       // [nodes], d at the node
   std::vector<std::uint8_t> ghosts;  // [nodes], 1 for ghosts; for pieces only
+  // Only if is_periodic: [nodes], the number of the node of which it is a copy, or its own number,
+  // and the periods from that node to it.
+  std::vector<std::int64_t> partners;
+  std::vector<std::array<std::int32_t, 3>> images;
 };
 
 // Values of an output field in a window.

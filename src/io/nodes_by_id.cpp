@@ -2,6 +2,7 @@
 #include "io/nodes_by_id.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "comm/records.hpp"
 #include "io/rows.hpp"
 #include "io/tag_groups.hpp"
+#include "results/periodic_cut.hpp"
 
 namespace pnpbs::io {
 
@@ -18,8 +20,8 @@ namespace {
 // A node, as ranks exchange it.
 template <int Dim>
 struct NodeRow {
-  std::int64_t id;
-  Point<3> x;  // the first `coordinates` of them are valid
+  std::int64_t id;  // of the level
+  Point<3> x;       // the first `coordinates` of them are valid
   double d;
   std::int32_t tag, region;
 };
@@ -33,6 +35,8 @@ struct FieldValue {
 // A mid node or a copy of a node, and a component of a field at it.
 struct AddedRow {
   std::int64_t number, id;
+  std::int64_t original;  // label of the node that it is a copy of
+  Image<3> image;         // periods from that node
   Point<3> x;
   double d;
   std::int32_t tag, region;
@@ -68,18 +72,19 @@ Side side_of_domain(const BoundaryEdge& edge) {
 }
 
 template <int Dim>
-NodeRow<Dim> node_row(const Results<Dim>& results, std::int64_t i, std::int32_t region) {
+NodeRow<Dim> node_row(const Results<Dim>& results, std::int64_t i, const Point<3>& x,
+                      std::int32_t region) {
   const Nodes<Dim>& nodes = results.level().nodes;
-  return {nodes.id(i), results.point_in_space(i), results.spacing_at(i),
-          static_cast<std::int32_t>(nodes.tag(i)), region};
+  return {nodes.id(i), x, results.spacing_at(i), static_cast<std::int32_t>(nodes.tag(i)), region};
 }
 
 template <int Dim>
-NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, int coordinates, bool with_regions) {
+NodeRows sorted_nodes(std::vector<NodeRow<Dim>> rows, const PeriodicCell<Dim>& cell,
+                      int coordinates, bool with_regions) {
   std::ranges::sort(rows, {}, &NodeRow<Dim>::id);
   NodeRows sorted;
   for (const NodeRow<Dim>& row : rows) {
-    sorted.ids.push_back(row.id);
+    sorted.ids.push_back(cell.number_of(row.id));
     sorted.x.insert(sorted.x.end(), row.x.begin(), row.x.begin() + coordinates);
     sorted.spacing.push_back(row.d);
     sorted.tags.push_back(row.tag);
@@ -126,7 +131,7 @@ NodesById<Dim>::NodesById(Results<Dim>& results, int order, const std::vector<Ou
   const bool elements = order > 0;
   prepare(results, elements);
   if (order == 2) mid_nodes_ = &results.mid_nodes();
-  if (elements && !results.crack_tags().empty()) cracks_ = &results.cracks();
+  if (elements && results.has_copies()) cracks_ = &results.cracks();
   owned_ = results.count();
   contents_.dimension = Dim;
   contents_.coordinates = results.coordinates();
@@ -137,6 +142,10 @@ NodesById<Dim>::NodesById(Results<Dim>& results, int order, const std::vector<Ou
   contents_.with_regions = region_of_.has_value();
   contents_.names = &results.domain().names();
   contents_.fields = &fields;
+  const PeriodicCell<Dim>& cell = results.level().nodes.cell;
+  contents_.is_periodic = elements && cell.any();
+  if (contents_.is_periodic)
+    for (std::size_t k = 0; k < Dim; ++k) contents_.periods[k] = cell.period(static_cast<int>(k));
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
     results.for_elements([&](const auto&) { ++counts[1]; });
@@ -208,7 +217,39 @@ std::vector<Row> NodesById<Dim>::brought(std::vector<Row> rows, const Label& fir
 
 template <int Dim>
 std::int64_t NodesById<Dim>::label(std::int64_t place) const {
-  return blocks_ ? results_.level().nodes.id(results_.node_at(place)) : place;
+  const Nodes<Dim>& nodes = results_.level().nodes;
+  if (!blocks_ && place < owned_) return place;
+  const std::int64_t id = nodes.cell.home_id(nodes.id(results_.node_at(place)));
+  return blocks_ ? id : leading_count(owned_, [&](std::int64_t other) {
+    return nodes.id(results_.node_at(other)) < id;
+  });
+}
+
+// Returns the position of a node that is moved by whole periods.
+template <int Dim>
+Point<3> NodesById<Dim>::point(std::int64_t place, const Image<3>& periods) const {
+  Point<3> x = results_.point_in_space(results_.node_at(place));
+  if (contents_.is_periodic)
+    for (std::size_t k = 0; k < 3; ++k) x[k] += periods[k] * contents_.periods[k];
+  return x;
+}
+
+template <int Dim>
+template <std::size_t n>
+std::array<Point<3>, n> NodesById<Dim>::points(const std::array<std::int64_t, n>& places,
+                                               const Image<3>& periods) const {
+  std::array<Point<3>, n> x;
+  std::ranges::transform(places, x.begin(), [&](auto place) { return point(place, periods); });
+  return x;
+}
+
+// Returns the periods from the original node, which is owned, to its copy.
+template <int Dim>
+Image<3> NodesById<Dim>::periods_of_copy(const CrackCopy& copy) const {
+  Image<3> periods = copy.periods;
+  const Image<3> original = cracks_->periods(copy.node);
+  for (std::size_t k = 0; k < 3; ++k) periods[k] -= original[k];
+  return periods;
 }
 
 template <int Dim>
@@ -255,25 +296,35 @@ void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit
     std::vector<NodeRow<Dim>> own;
     for (std::int64_t place = window.begin; place < window.end; ++place) {
       const std::int64_t i = results_.node_at(place);
-      own.push_back(node_row<Dim>(results_, i, region_of_ ? region_of_->at_node(i) : 0));
+      own.push_back(node_row<Dim>(results_, i,
+                                  point(place, cracks_ ? cracks_->periods(place) : Image<3>{}),
+                                  region_of_ ? region_of_->at_node(i) : 0));
     }
-    NodeRows rows =
-        sorted_nodes<Dim>(brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }),
-                          contents_.coordinates, region_of_.has_value());
+    NodeRows rows = sorted_nodes<Dim>(
+        brought(std::move(own), [](const NodeRow<Dim>& n) { return n.id; }),
+        results_.level().nodes.cell, contents_.coordinates, region_of_.has_value());
     rows.first = window.first;
+    if (contents_.is_periodic) {
+      rows.partners.resize(rows.ids.size());
+      std::iota(rows.partners.begin(), rows.partners.end(), rows.first);
+      rows.images.resize(rows.ids.size());
+    }
     visit(rows);
   });
   const auto row_of = [&](const Added& added, std::vector<AddedRow>& rows) {
     if (cracks_) {
-      const std::int64_t i = results_.node_at(cracks_->copies()[added.index].node);
-      const NodeRow<Dim> row = node_row<Dim>(results_, i, region_of_ ? region_of_->at_node(i) : 0);
-      rows.push_back({added.number, row.id, row.x, row.d, row.tag, row.region});
+      const CrackCopy& copy = cracks_->copies()[added.index];
+      const std::int64_t i = results_.node_at(copy.node);
+      const NodeRow<Dim> row = node_row<Dim>(results_, i, point(copy.node, copy.periods),
+                                             region_of_ ? region_of_->at_node(i) : 0);
+      rows.push_back({added.number, results_.level().nodes.number(i), label(copy.node),
+                      periods_of_copy(copy), row.x, row.d, row.tag, row.region});
       return;
     }
     const MidNode& mid = mid_nodes_->nodes()[added.index];
     const double d = 0.5 * (results_.spacing_at(results_.node_at(mid.ends[0])) +
                             results_.spacing_at(results_.node_at(mid.ends[1])));
-    rows.push_back({added.number, -1, mid.x, d, mid.tag, mid.region});
+    rows.push_back({added.number, -1, -1, {}, mid.x, d, mid.tag, mid.region});
   };
   for_added_windows<AddedRow>(row_of, [&](std::int64_t first, std::vector<AddedRow> added) {
     std::ranges::sort(added, {}, &AddedRow::number);
@@ -285,7 +336,11 @@ void NodesById<Dim>::for_nodes(const std::function<void(const NodeRows&)>& visit
       rows.spacing.push_back(one.d);
       rows.tags.push_back(one.tag);
       if (region_of_) rows.regions.push_back(one.region);
+      if (!contents_.is_periodic) continue;
+      rows.partners.push_back(one.original);
+      rows.images.push_back(one.image);
     }
+    if (contents_.is_periodic) label_by_numbers(rows.partners);
     visit(rows);
   });
 }
@@ -495,7 +550,7 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
   TagGroups groups;
   for (std::int64_t place = 0; place < owned_; ++place) {
     const std::int64_t i = results_.node_at(place);
-    const Point<3> x = results_.point_in_space(i);
+    const Point<3> x = point(place, cracks_ ? cracks_->periods(place) : Image<3>{});
     groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
   }
   for (const Added& added : own_added_) {
@@ -503,8 +558,9 @@ std::vector<TagGroup> NodesById<Dim>::node_groups() const {
       const MidNode& mid = mid_nodes_->nodes()[added.index];
       groups.add(mid.tag, {&mid.x, 1});
     } else {
-      const std::int64_t i = results_.node_at(cracks_->copies()[added.index].node);
-      const Point<3> x = results_.point_in_space(i);
+      const CrackCopy& copy = cracks_->copies()[added.index];
+      const std::int64_t i = results_.node_at(copy.node);
+      const Point<3> x = point(copy.node, copy.periods);
       groups.add(static_cast<std::int32_t>(nodes.tag(i)), {&x, 1});
     }
   }
@@ -515,9 +571,9 @@ template <int Dim>
 std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
   results_.for_facets([&](const auto& places, std::int32_t tag) {
-    groups.add(tag, places_in_space(results_, places));
     const CrackFacet<Dim>* const facet = cracks_ ? cracks_->facet(places) : nullptr;
-    if (facet && facet->is_open()) groups.add(tag, places_in_space(results_, places));
+    groups.add(tag, points(places, facet ? facet->periods[1] : Image<3>{}));
+    if (facet && facet->is_open()) groups.add(tag, points(places, facet->periods[0]));
   });
   return groups.of_all(comm_);
 }
@@ -527,7 +583,15 @@ std::vector<TagGroup> NodesById<Dim>::region_groups() const {
   TagGroups groups;
   if (!region_of_) return {};
   results_.for_elements([&](const auto& places) {
-    groups.add((*region_of_)(places), places_in_space(results_, places));
+    Image<3> periods{};
+    if (contents_.is_periodic) {
+      std::array<std::int64_t, Dim + 1> ids;
+      std::ranges::transform(places, ids.begin(), [&](std::int64_t place) {
+        return results_.level().nodes.id(results_.node_at(place));
+      });
+      std::ranges::copy(periods_to_cell(results_.level().nodes.cell, ids), periods.begin());
+    }
+    groups.add((*region_of_)(places), points(places, periods));
   });
   return groups.of_all(comm_);
 }

@@ -60,6 +60,11 @@ class NodesById : public NodeSource {
   template <class Row, class RowsOf, class Visit>
   void for_added_windows(const RowsOf& rows_of, const Visit& visit) const;
   void list_added_nodes();
+  Point<3> point(std::int64_t place, const Image<3>& periods) const;
+  template <std::size_t n>
+  std::array<Point<3>, n> points(const std::array<std::int64_t, n>& places,
+                                 const Image<3>& periods) const;
+  Image<3> periods_of_copy(const CrackCopy& copy) const;
   std::int64_t first_place_in(std::size_t part) const;
   std::int64_t label(std::int64_t place) const;
   template <std::size_t n>
@@ -71,7 +76,7 @@ class NodesById : public NodeSource {
   std::int64_t owned_ = 0;               // number of owned nodes
   std::int64_t node_count_ = 0;          // of all ranks, without added nodes
   const MidNodes* mid_nodes_ = nullptr;  // set for elements of second order
-  const Cracks<Dim>* cracks_ = nullptr;  // set for elements with cracks
+  const Cracks<Dim>* cracks_ = nullptr;  // set for elements with cracks or of a periodic domain
   // The mid nodes or copies that this rank writes, in the order of their numbers.
   struct Added {
     std::int64_t number;

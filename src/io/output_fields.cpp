@@ -30,7 +30,8 @@ void require_name(const std::string& name) {
   if (name.empty() || name.size() > kLongestFieldName || !std::ranges::all_of(name, is_allowed))
     refuse_field("argument name = \"" + name + "\"; an output field has a name of 1 to " +
                  std::to_string(kLongestFieldName) + " letters, digits, '_' and '-'");
-  constexpr std::string_view ours[] = {"id", "tag", "spacing", "quality", "vtkghosttype"};
+  constexpr std::string_view ours[] = {"id",      "tag",     "spacing",
+                                       "quality", "partner", "vtkghosttype"};
   if (std::ranges::find(ours, to_lower_case(name)) != std::end(ours))
     refuse_field("argument name = \"" + name +
                  "\" is the name of an array that files always contain; choose "

@@ -241,6 +241,18 @@ void require_cracks(const std::string& path, const Format& format, int order) {
   if (order == 2) refuse("elements of second order cannot have cracks: '" + path + "'");
 }
 
+// Throws unless a file of this format can contain elements of a periodic domain.
+void require_periodic(const std::string& path, const Format& format, int order, bool has_cracks) {
+  const auto refuse_it = [&](const std::string& what) {
+    throw Error(ErrorKind::unsupported, what + ": '" + path + "'");
+  };
+  if (format.in_pieces() || format.write == write_gr3 || format.write == write_2dm)
+    refuse_it(std::string("a .") + format.name +
+              " file cannot contain the elements of a periodic domain; .msh and .vtu files can");
+  if (order == 2) refuse_it("files have no elements of second order of a periodic domain");
+  if (has_cracks) refuse_it("there are no cracks in the elements of a periodic domain");
+}
+
 // Returns whether a second file can be placed beside this path: not for streams and devices.
 bool has_room_beside(const std::string& path) {
   std::error_code error;
@@ -375,10 +387,14 @@ void require_hdf5_for(const std::vector<FileRequest>& requests, const Communicat
   });
 }
 
-Requested requested_of(const Placement& placement) {
+Requested requested_of(Placement& placement) {
   const GeometryKind kind = placement.results().kind();
   return {placement.dimension(), kind != GeometryKind::surface, kind,
-          !placement.results().crack_tags().empty()};
+          !placement.results().crack_tags().empty(),
+          placement.results().has_nodes() &&
+              visit_dimension(placement.results(), [](const auto& results) {
+                return results.level().nodes.cell.any();
+              })};
 }
 
 void give_up_if_asked(const AsksToStop& requests_stop, std::size_t done, std::size_t files) {
@@ -413,6 +429,7 @@ void add_request(const std::string& path, const std::string& format_name, int or
       (format.elements == Elements::regions && of.has_elements) ||
       (elements && (format.elements == Elements::on_request || format.elements == Elements::grid));
   const int held = holds_elements ? std::max(order, 1) : 0;
+  if (of.is_periodic && held > 0) require_periodic(path, format, held, of.has_cracks);
   if (of.has_cracks && held > 0) require_cracks(path, format, held);
   std::vector<FileRequest> grids{{path, &format, held}};
   if (elements && format.elements == Elements::grid && of.has_elements && has_room_beside(path))

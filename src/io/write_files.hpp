@@ -27,10 +27,11 @@ struct Requested {
   int dimension = 2;
   bool has_elements = false;
   GeometryKind kind = GeometryKind::plane;
-  bool has_cracks = false;  // elements have cracks
+  bool has_cracks = false;   // elements have cracks
+  bool is_periodic = false;  // elements cross the sides of the cell of a periodic domain
 };
 
-Requested requested_of(const Placement& placement);
+Requested requested_of(Placement& placement);
 
 // Adds the request for a file, and for the files of elements or facets that belong to it. The
 // format is given by its name or, if that is empty, by the extension. `order` is that of the

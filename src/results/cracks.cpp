@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "results/cracks.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -13,9 +12,9 @@
 #include "base/mixed_hash.hpp"
 #include "base/space_vectors.hpp"
 #include "base/union_find.hpp"
-#include "comm/id_blocks.hpp"
 #include "comm/records.hpp"
 #include "geometry/volume/triangles.hpp"
+#include "results/copy_numbers.hpp"
 
 namespace pnpbs {
 namespace {
@@ -223,8 +222,6 @@ class SectorFinder {
   std::vector<Face> faces_;  // of the elements around a node
 };
 
-constexpr std::int64_t kOriginal = -1;  // in place of the number of a copy
-
 // A corner of an element that is a copy.
 template <int Dim>
 struct ElementNews {
@@ -247,12 +244,6 @@ std::span<const News> those_with(const std::vector<News>& news,
   return {std::ranges::lower_bound(news, ids, {}, &News::ids),
           std::ranges::upper_bound(news, ids, {}, &News::ids)};
 }
-
-// A node with copies.
-struct SplitNode {
-  std::int64_t id, copies, first;  // number of the first copy
-  int rank;                        // that owns the node
-};
 
 }  // namespace
 
@@ -352,33 +343,11 @@ class CrackMaker {
     }
   }
 
-  // Numbers the copies over all ranks in the order of the ids of the originals. The nodes are
-  // distributed over the ranks by their ids for this. Collective.
   void number_copies() {
-    std::vector<SplitNode> nodes;
+    std::vector<CopiedNode> nodes;
     for (const Split& split : splits_)
-      nodes.push_back(
-          {id(split.place), static_cast<std::int64_t>(split.sectors.count) - 1, 0, comm_.rank()});
-    std::optional<IdBlocks> blocks;
-    if (comm_.size() > 1) {
-      blocks.emplace(comm_, results_.count(), [&](std::int64_t place) { return id(place); });
-      nodes = redistribute<SplitNode>(
-          comm_, nodes, [&](const SplitNode& node) { return blocks->rank_of(node.id); });
-    }
-    std::ranges::sort(nodes, {}, &SplitNode::id);
-    std::int64_t copies = 0;
-    for (const SplitNode& node : nodes) copies += node.copies;
-    const RankSpan span = span_of(comm_, static_cast<std::size_t>(copies));
-    std::int64_t next = span.first;
-    for (SplitNode& node : nodes) {
-      node.first = next;
-      next += node.copies;
-    }
-    cracks_.all_ = span.total;
-    if (comm_.size() > 1)
-      nodes =
-          redistribute<SplitNode>(comm_, nodes, [](const SplitNode& node) { return node.rank; });
-    std::ranges::sort(nodes, {}, &SplitNode::id);  // as the split nodes are
+      nodes.push_back({split.place, static_cast<std::int64_t>(split.sectors.count) - 1});
+    cracks_.all_ = pnpbs::number_copies(results_, nodes);
     for (std::size_t k = 0; k < splits_.size(); ++k) splits_[k].first = nodes[k].first;
   }
 

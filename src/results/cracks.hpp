@@ -2,7 +2,8 @@
 // Elements whose nodes are doubled along cracks, which are inner curves in the plane and inner
 // surfaces in space. The elements around a node fall into sectors, which cracks separate. One
 // sector keeps the node, and each other one gets a copy of it. So the two sides of a crack share no
-// node except at its tip, where the elements around a node form a single sector.
+// node except at its tip, where the elements around a node form a single sector. The elements of a
+// periodic domain have copies in the same way, where the torus is cut open (periodic_cut.hpp).
 #pragma once
 
 #include <algorithm>
@@ -14,10 +15,11 @@
 
 namespace pnpbs {
 
-// A copy of a node on a crack.
+// A copy of a node on a crack or of a periodic domain.
 struct CrackCopy {
-  std::int64_t node;    // result index of the original
+  std::int64_t node;    // result index of the original; in a periodic domain perhaps of an image
   std::int64_t number;  // 0, 1, ... over all ranks, in the order of the ids of the originals
+  Image<3> periods{};   // from the cell of a periodic domain to the copy
 };
 
 // A facet of a crack, or one of the boundary or of another inner curve or surface that has a copy
@@ -29,6 +31,9 @@ struct CrackFacet {
   // facet is on no crack, and where all of its corners are at the tip.
   std::array<std::array<std::int64_t, Dim>, 2> copies;
   std::int32_t tag = 0;  // of the crack; 0 on no crack
+  // For each side, the periods from `places` to the corners of the facet. Both are equal where a
+  // periodic domain is not cut along the facet.
+  std::array<Image<3>, 2> periods{};
 
   bool is_open() const { return copies[0] != copies[1]; }
 };
@@ -54,6 +59,13 @@ class Cracks {
     return found != facets_.end() && found->places == places ? &*found : nullptr;
   }
 
+  // Returns the periods from the cell of a periodic domain to an owned node in its elements. They
+  // are 0, unless all elements at the node have it beyond the cell.
+  Image<3> periods(std::int64_t place) const {
+    const auto found = std::ranges::lower_bound(moved_, place, {}, &CrackCopy::node);
+    return found != moved_.end() && found->node == place ? found->periods : Image<3>{};
+  }
+
   // Returns for each corner of an element its index in copies(), or -1 if it is the original node.
   // `places` are the result indices that Results::for_elements() passes.
   std::array<std::int64_t, Dim + 1> copies_in(
@@ -67,6 +79,8 @@ class Cracks {
  private:
   template <int>
   friend class CrackMaker;
+  template <int>
+  friend class PeriodicCutMaker;
 
   // An element with a copy among its corners.
   struct Element {
@@ -76,6 +90,7 @@ class Cracks {
   std::vector<CrackCopy> copies_;
   std::vector<Element> elements_;  // ordered by their places
   std::vector<CrackFacet<Dim>> facets_;
+  std::vector<CrackCopy> moved_;  // owned nodes that no element has in the cell; no copies
   std::int64_t owned_ = 0, all_ = 0;
   double covered_ = 1;
 };

@@ -18,6 +18,7 @@
 #include "results/cracks.hpp"
 #include "results/element_angles.hpp"
 #include "results/mid_nodes.hpp"
+#include "results/periodic_cut.hpp"
 
 namespace pnpbs {
 
@@ -144,7 +145,8 @@ const Cracks<Dim>& Results<Dim>::cracks() {
   prepare_stars();
   const bool is_known = cracks_stamp_ == level_->stamp();
   if (comm_->allreduce_sum(std::uint64_t{!is_known}) == 0) return *cracks_;
-  cracks_ = std::make_shared<const Cracks<Dim>>(make_cracks(*this, crack_tags_));
+  cracks_ = std::make_shared<const Cracks<Dim>>(
+      level_->nodes.cell.any() ? make_periodic_cut(*this) : make_cracks(*this, crack_tags_));
   cracks_stamp_ = level_->stamp();
   return *cracks_;
 }

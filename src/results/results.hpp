@@ -54,9 +54,11 @@ class Results : public NodalResults {
   // Returns the mid nodes of elements of second order (mid_nodes.hpp). All ranks must call it, and
   // if one rank throws, all ranks throw.
   const MidNodes& mid_nodes();
-  // Returns the cracks along the curves or surfaces with the crack tags (cracks.hpp). All ranks
-  // must call it, and if one rank throws, all ranks throw.
+  // Returns the cracks along the curves or surfaces with the crack tags (cracks.hpp), and in a
+  // periodic domain the copies of nodes where it is cut open (periodic_cut.hpp). All ranks must
+  // call it, and if one rank throws, all ranks throw.
   const Cracks<Dim>& cracks();
+  bool has_copies() const { return !crack_tags_.empty() || level_->nodes.cell.any(); }
   // Calls visit(corners) for every element, a triangle or a tetrahedron, once over all ranks: at
   // the owner of its node with the smallest id, which is the first corner. Requires
   // prepare_stars().

@@ -81,6 +81,31 @@ static void expect_images(pnpbs_placement placement, const domain_case* it) {
   free(x), free(sent);
 }
 
+/* Expects that the file has the same bytes as that of a single rank. Rank 0 compares them. */
+static void expect_same_file(pnpbs_placement placement, pnpbs_placement reference,
+                             const char* extension, const char* what) {
+  char path[64], alone_path[64];
+  snprintf(path, sizeof path, "periodic_%d.%s", size, extension);
+  snprintf(alone_path, sizeof alone_path, "periodic_%d_alone.%s", size, extension);
+  expect(pnpbs_placement_write(placement, path, 1) == PNPBS_OK, what);
+  if (rank == 0) {
+    FILE *one, *other;
+    int c = 0;
+    long bytes = 0;
+    expect(pnpbs_placement_write(reference, alone_path, 1) == PNPBS_OK, what);
+    one = fopen(path, "rb"), other = fopen(alone_path, "rb");
+    expect(one && other, path);
+    if (one && other) {
+      for (; (c = getc(one)) == getc(other) && c != EOF; ++bytes) continue;
+      expect(c == EOF && feof(other) && bytes > 10000, path);
+    }
+    if (one) fclose(one);
+    if (other) fclose(other);
+    remove(path), remove(alone_path);
+  }
+  MPI_Barrier(group);
+}
+
 static void checks(void) {
   pnpbs_context alone;
   size_t k;
@@ -92,6 +117,8 @@ static void checks(void) {
     hash_of_nodes(reference, expected);
     expect(strcmp(here, expected) == 0, cases[k].name);
     expect_images(placement, &cases[k]);
+    expect_same_file(placement, reference, "msh", cases[k].name);
+    expect_same_file(placement, reference, "vtu", cases[k].name);
     pnpbs_placement_destroy(&placement);
     pnpbs_placement_destroy(&reference);
   }

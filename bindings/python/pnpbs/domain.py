@@ -508,8 +508,8 @@ class Domain(Handle):
 
         Coordinates along a periodic axis, and the period, are rounded to multiples of 2**-50 times
         the largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and
-        inner curves in space. Not yet for a periodic domain, but `Status.ERROR_UNSUPPORTED`: files
-        with elements, distributed meshes, Voronoi cells, particles and cracks.
+        inner curves in space. Not yet for a periodic domain, but `Status.ERROR_UNSUPPORTED`: files with
+        elements of second order, distributed meshes, Voronoi cells, particles and cracks.
 
         - `periodic`: True for all axes, or a value for each axis.
         - `tags`: those of the other sides, low x, high x, low y and so on; one for all sides or one

@@ -505,8 +505,8 @@ element at a seam has its true shape, and no element occurs twice.
 
 Coordinates along a periodic axis, and the period, are rounded to multiples of 2^-50 times the
 largest coordinate of an image. Not on a sphere, nor for surfaces alone, level sets and inner curves
-in space. Not yet for a periodic domain, but `:error_unsupported`: files with elements, distributed
-meshes, Voronoi cells, particles and cracks. [`run!`](@ref) and [`initialise!`](@ref) throw
+in space. Not yet for a periodic domain, but `:error_unsupported`: files with elements of second order,
+distributed meshes, Voronoi cells, particles and cracks. [`run!`](@ref) and [`initialise!`](@ref) throw
 `:error_spacing` if a period is shorter than four spacings.
 
 `periodic` is true for all axes, or has a value for each axis. `tags` are those of the other sides:
