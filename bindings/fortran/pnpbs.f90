@@ -1188,12 +1188,18 @@ contains
   !> initialise and run return PNPBS_ERROR_SPACING if a period is shorter than four spacings.
   !>   low, high  (dim) corners of the box
   !>   periodic   (dim) true along the axes on which the domain is periodic
-  !>   tags       (2 dim) of the other sides: low x, high x, low y, ...; all are 1 if absent
-  subroutine domain_set_periodic(self, low, high, periodic, tags, stat, errmsg)
+  !>   tags       (2 dim) of the sides that are not periodic or are flat: low x, high x, low y, ...;
+  !>              all are 1 if absent
+  !>   flat       (dim) true along periodic axes whose sides no element crosses: nodes lie on them,
+  !>              and opposite sides have the same facets, as solvers need that work on a box. In
+  !>              the plane curves may cross them, in space surfaces must not, and all periodic axes
+  !>              or none are flat
+  subroutine domain_set_periodic(self, low, high, periodic, tags, flat, stat, errmsg)
     class(pnpbs_domain), intent(in) :: self
     real(c_double), intent(in) :: low(:), high(:)
     logical, intent(in) :: periodic(:)
     integer(c_int32_t), intent(in), optional :: tags(:)
+    logical, intent(in), optional :: flat(:)
     class(*), intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(arguments) :: given
@@ -1208,7 +1214,11 @@ contains
     call given%check_rows('periodic', size(periodic), dim)
     call given%place_int32('tags', tags, a_tags, room)
     call given%require('tags', room, int(2 * dim, c_int64_t))
-    axes = merge(1_c_int32_t, 0_c_int32_t, periodic)
+    axes = merge(PNPBS_PERIODIC, PNPBS_BOUNDED, periodic)
+    if (present(flat)) then
+      call given%check_rows('flat', size(flat), dim)
+      if (size(flat) == size(axes)) axes = merge(PNPBS_FLAT, axes, periodic .and. flat)
+    end if
     status = PNPBS_OK
     if (.not. given%is_wrong()) status = c_domain_set_periodic(self%c, low, high, axes, a_tags)
     call conclude('domain%set_periodic', status, stat, errmsg, given)

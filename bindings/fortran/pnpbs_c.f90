@@ -58,6 +58,13 @@ module pnpbs_c
   integer(c_int32_t), parameter :: PNPBS_OVERLAP_FIRST = 1
   integer(c_int32_t), parameter :: PNPBS_OVERLAP_OWN = 2
 
+  !> An axis in pnpbs_domain_set_periodic. PNPBS_BOUNDED: the sides across it bound the domain.
+  !> PNPBS_PERIODIC: the domain repeats itself along it. PNPBS_FLAT: as PNPBS_PERIODIC, and no
+  !> element crosses the sides.
+  integer(c_int32_t), parameter :: PNPBS_BOUNDED = 0
+  integer(c_int32_t), parameter :: PNPBS_PERIODIC = 1
+  integer(c_int32_t), parameter :: PNPBS_FLAT = 2
+
   !> Warnings about the domain. In parentheses: what `count` and `value` of
   !> pnpbs_placement_get_warning_data are. More codes may be added: programs must expect numbers
   !> that they do not know. PNPBS_WARNING_UNKNOWN is none of the others. LEFT_OUT_OUTSIDE: curves or

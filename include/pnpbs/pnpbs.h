@@ -375,6 +375,13 @@ PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double r
  *  @param[in] overlap  PNPBS_OVERLAP_LAST, PNPBS_OVERLAP_FIRST or PNPBS_OVERLAP_OWN */
 PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 
+/** An axis in pnpbs_domain_set_periodic. PNPBS_BOUNDED: the sides across it bound the domain.
+ *  PNPBS_PERIODIC: the domain repeats itself along it. PNPBS_FLAT: as PNPBS_PERIODIC, and no element
+ *  crosses the sides. */
+#define PNPBS_BOUNDED 0
+#define PNPBS_PERIODIC 1
+#define PNPBS_FLAT 2
+
 /** Makes the domain a box that repeats itself along some axes. It has no boundary across these
  * axes: bubbles on both sides of a seam act on each other. The other sides of the box are
  * boundaries. Closed curves and surfaces are holes and cavities or, with the role PNPBS_INNER or as
@@ -404,8 +411,14 @@ PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t ov
  *  Local. Errors: PNPBS_ERROR_ARGUMENT. pnpbs_placement_initialise and _run return
  *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.
  *  @param[in] low, high  [dim] corners of the box
- *  @param[in] periodic   [dim] nonzero along the axes on which the domain is periodic
- *  @param[in] tags       [2 dim] of the other sides: low x, high x, low y, ...; NULL: all are 1 */
+ *  PNPBS_FLAT is for solvers that need a box: nodes lie on the sides as well, and opposite sides
+ *  have the same facets. In the plane curves may cross such sides, and each part of a region that they
+ *  divide needs a point of its own. In space surfaces must not cross them, and all periodic axes or
+ *  none are flat (otherwise PNPBS_ERROR_UNSUPPORTED).
+ *
+ *  @param[in] periodic   [dim] PNPBS_BOUNDED, PNPBS_PERIODIC or PNPBS_FLAT
+ *  @param[in] tags       [2 dim] of the sides that are not PNPBS_PERIODIC: low x, high x, low y,
+ *                        ...; NULL: all are 1 */
 PNPBS_API pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double *low,
                                                  const double *high, const int32_t *periodic,
                                                  const int32_t *tags);

@@ -136,13 +136,14 @@ pnpbs_status pnpbs_domain_set_periodic(pnpbs_domain domain, const double* low, c
     visit_dimension(object, [&]<class Domain>(Domain& changed) {
       constexpr int kDim = std::is_same_v<Domain, PlaneDomain> ? 2 : 3;
       Box<kDim> box;
-      std::array<bool, kDim> axes;
+      std::array<bool, kDim> axes, flat;
       for (std::size_t k = 0; k < kDim; ++k) {
         box.low[k] = low[k];
         box.high[k] = high[k];
         axes[k] = periodic[k] != 0;
+        flat[k] = periodic[k] == PNPBS_FLAT;
       }
-      changed.set_periodic(box, axes, tags);
+      changed.set_periodic(box, axes, flat, tags);
     });
   });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/point_text.hpp"
 #include "domain/given_values.hpp"
 
@@ -25,7 +26,7 @@ void DomainBase<Dim>::add_fixed_nodes(std::int64_t n, const double* coordinates,
 
 template <int Dim>
 void DomainBase<Dim>::set_periodic(const Box<Dim>& box, const std::array<bool, Dim>& periodic,
-                                   const std::int32_t* tags) {
+                                   const std::array<bool, Dim>& flat, const std::int32_t* tags) {
   given_values::require_point<Dim>("low", box.low);
   given_values::require_point<Dim>("high", box.high);
   for (std::size_t k = 0; k < Dim; ++k)
@@ -35,9 +36,17 @@ void DomainBase<Dim>::set_periodic(const Box<Dim>& box, const std::array<bool, D
                            "] = " + number_text(box.high[k]));
   if (std::ranges::count(periodic, true) == 0)
     given_values::reject("periodic has no axis along which the domain is periodic");
+  for (std::size_t a = 0; Dim == 3 && a < Dim; ++a)
+    for (std::size_t b = 0; b < Dim; ++b)
+      if (flat[a] && periodic[b] && !flat[b])
+        throw Error(ErrorKind::unsupported,
+                    "a periodic domain in space cannot have flat sides along axis " +
+                        std::to_string(a) + " and not along axis " + std::to_string(b) +
+                        ": make all periodic axes flat, or none");
   const std::vector<std::int32_t> of_sides = read_tags("tags", 2 * Dim, tags);
   cell_ = PeriodicCell<Dim>(box, periodic);
   std::ranges::copy(of_sides, side_tags_.begin());
+  flat_ = flat;
   checked_ = false;
 }
 

@@ -63,9 +63,12 @@ class DomainBase {
   // Makes the domain the box, and periodic along these axes. The curves and surfaces that are given
   // lie in the box or cross its periodic sides, and stand for all their translated copies. The
   // other sides of the box are boundaries, with tags in the order low x, high x, low y and so on;
-  // null means that all are 1.
+  // null means that all are 1. No element crosses the sides across axes with `flat`, which are
+  // among the periodic ones.
   void set_periodic(const Box<Dim>& box, const std::array<bool, Dim>& periodic,
-                    const std::int32_t* tags);
+                    const std::array<bool, Dim>& flat, const std::int32_t* tags);
+  bool is_flat(std::size_t axis) const { return flat_[axis]; }
+  std::int32_t side_tag(std::size_t axis, bool high) const { return side_tags_[2 * axis + high]; }
   // Returns the cell of a periodic domain.
   const PeriodicCell<Dim>& cell() const { return cell_; }
   // Resolves the images of a periodic domain within this distance of its cell. Images of nodes have
@@ -80,10 +83,11 @@ class DomainBase {
   std::vector<RegionPoint<Dim>> region_points_;
   std::vector<Warning> given_warnings_;
   bool checked_ = false;
-  // The cell of a periodic domain, the tags of its sides that bound the domain (low x, high x, low
-  // y and so on), and the distance from it up to which check() resolves images.
+  // The cell of a periodic domain, the tags of its sides (low x, high x, low y and so on), which of
+  // its axes have flat sides, and the distance from it up to which check() resolves images.
   PeriodicCell<Dim> cell_;
   std::array<std::int32_t, 2 * Dim> side_tags_{};
+  std::array<bool, Dim> flat_{};
   double reach_ = 0;
 
  private:

@@ -17,13 +17,24 @@ std::int32_t code_of(const std::array<std::int32_t, 3>& image) {
   return ((image[0] + 1) * kAlong + image[1] + 1) * kAlong + image[2] + 1;
 }
 
+// Returns the groups of the facets on the lower and upper side, if these are flat and the copies on
+// the upper side have these periods; else null.
+std::array<const MshGroup*, 2> flat_sides(const Contents& all, const MshGroups& groups,
+                                          const std::array<std::int32_t, 3>& image) {
+  std::array<const MshGroup*, 2> sides{};
+  if (std::ranges::count(image, 0) != 2 || std::ranges::count(image, 1) != 1) return sides;
+  const auto axis = static_cast<std::size_t>(std::ranges::find(image, 1) - image.begin());
+  for (std::size_t high = 0; high < 2; ++high)
+    if (const std::int32_t tag = all.flat_tags[2 * axis + high]; tag != 0)
+      sides[high] = groups.of(tag);
+  return sides;
+}
+
 }  // namespace
 
 MshPeriodic::MshPeriodic(const NodeSource& nodes, const MshGroups& groups, SharedFile& file)
     : dimension_(nodes.contents().dimension - 1), periods_(nodes.contents().periods) {
   if (!nodes.contents().is_periodic) return;
-  for (const MshGroup& group : groups.tagged)
-    first_entity_ = std::max(first_entity_, group.number + 1);
   std::vector<std::int64_t> counts(kImages, 0);
   nodes.for_nodes([&](const NodeRows& rows) {
     std::vector<Pair> own;
@@ -42,25 +53,33 @@ MshPeriodic::MshPeriodic(const NodeSource& nodes, const MshGroups& groups, Share
       for (std::int32_t z = -1; z <= 1; ++z)
         if (const std::int64_t pairs = counts[index(code_of({x, y, z}))]; pairs > 0)
           links_.push_back({{x, y, z}, pairs});
+  std::int64_t free = 1;
+  for (const MshGroup& group : groups.tagged) free = std::max(free, group.number + 1);
+  for (Link& link : links_) {
+    const auto [low, high] = flat_sides(nodes.contents(), groups, link.image);
+    link.has_facets = low && high && low != high;
+    link.entities = {link.has_facets ? high->number : free,
+                     link.has_facets ? low->number : free + 1};
+    if (!link.has_facets) free += 2;
+  }
 }
 
 std::vector<MshGroup> MshPeriodic::entities(const TagGroup& box) const {
   std::vector<MshGroup> entities;
-  for (std::size_t link = 0; link < links_.size(); ++link)
-    for (const bool of_partners : {false, true})
-      entities.push_back({dimension_, entity(link, of_partners), "", box});
+  for (const Link& link : links_)
+    for (const std::int64_t number : link.entities)
+      if (!link.has_facets) entities.push_back({dimension_, number, "", box});
   return entities;
 }
 
 void MshPeriodic::append(int format, SharedFile& file) const {
   if (links_.empty()) return;
   file.append_text("$Periodic\n" + std::to_string(links_.size()) + "\n");
-  for (std::size_t k = 0; k < links_.size(); ++k) {
-    const Link& link = links_[k];
+  for (const Link& link : links_) {
     file.append([&](Sink& sink) {
       if (!file.is_first()) return;
       for (const std::int64_t number :
-           {std::int64_t{dimension_}, entity(k, false), entity(k, true)}) {
+           {std::int64_t{dimension_}, link.entities[0], link.entities[1]}) {
         sink.number(number);
         sink.text(" ");
       }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The section $Periodic of Gmsh's files: the copies of nodes beside the cell of a periodic domain
 // and their partners in the cell, those with the same periods between them in one link. Gmsh links
-// entities of the dimension of facets. Each link has two of its own, which have no elements, since
-// elements cross the sides of the cell.
+// entities of the dimension of facets: for the nodes of flat sides with tags of their own those of
+// the facets, and for other links two without elements, since elements cross the sides of the cell.
 #pragma once
 
 #include <array>
@@ -33,15 +33,13 @@ class MshPeriodic {
   struct Link {
     std::array<std::int32_t, 3> image;
     std::int64_t pairs = 0;
+    std::array<std::int64_t, 2> entities{};  // of the copies and of their partners
+    bool has_facets = false;
   };
-  std::int64_t entity(std::size_t link, bool of_partners) const {
-    return first_entity_ + static_cast<std::int64_t>(2 * link + of_partners);
-  }
 
   int dimension_;  // of the entities
   std::array<double, 3> periods_;
   std::vector<Link> links_;  // those with pairs, in the order of their images
-  std::int64_t first_entity_ = 1;
   RowsByTag<Pair> pairs_;
 };
 

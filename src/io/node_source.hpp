@@ -32,9 +32,11 @@ struct Contents {
   bool with_regions = false;   // elements have tags of regions
   bool is_beside = false;      // a grid of the facets that belongs to a grid of the elements
   std::int64_t nodes = 0, elements = 0, facets = 0;
-  bool is_periodic = false;           // elements beside the cell have copies of nodes
-  std::array<double, 3> periods{};    // along the axes; 0 along those that are not periodic
-  const GroupNames* names = nullptr;  // names of tags; nullptr for pieces
+  bool is_periodic = false;         // elements beside the cell have copies of nodes
+  std::array<double, 3> periods{};  // along the axes; 0 along those that are not periodic
+  // Tags of the facets on flat periodic sides: low x, high x, low y and so on; 0 on other sides
+  std::array<std::int32_t, 6> flat_tags{};
+  const GroupNames* names = nullptr;                 // names of tags; nullptr for pieces
   const std::vector<OutputField>* fields = nullptr;  // nullptr: no output fields
 
   std::size_t field_count() const { return fields ? fields->size() : 0; }

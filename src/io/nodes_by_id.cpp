@@ -145,7 +145,11 @@ NodesById<Dim>::NodesById(Results<Dim>& results, int order, const std::vector<Ou
   const PeriodicCell<Dim>& cell = results.level().nodes.cell;
   contents_.is_periodic = elements && cell.any();
   if (contents_.is_periodic)
-    for (std::size_t k = 0; k < Dim; ++k) contents_.periods[k] = cell.period(static_cast<int>(k));
+    for (std::size_t k = 0; k < Dim; ++k) {
+      contents_.periods[k] = cell.period(static_cast<int>(k));
+      for (std::size_t high = 0; high < 2 && results.domain().is_flat(k); ++high)
+        contents_.flat_tags[2 * k + high] = results.domain().side_tag(k, high != 0);
+    }
   std::vector<std::int64_t> counts{owned_, 0, 0};
   if (elements) {
     results.for_elements([&](const auto&) { ++counts[1]; });
@@ -427,6 +431,8 @@ void NodesById<Dim>::add_facet(const std::array<std::int64_t, Dim>& places, Row 
       row.added = copies_numbered(facet->copies[1]);
       if (facet->is_open()) {
         Row front = row;
+        if (facet->is_flat_side())
+          std::tie(front.tag, row.tag) = std::tie(facet->side_tags[0], facet->side_tags[1]);
         front.added = copies_numbered(facet->copies[0]);
         if constexpr (Dim == 2) {
           front.domain = Side::left;
@@ -572,8 +578,13 @@ std::vector<TagGroup> NodesById<Dim>::facet_groups() const {
   TagGroups groups;
   results_.for_facets([&](const auto& places, std::int32_t tag) {
     const CrackFacet<Dim>* const facet = cracks_ ? cracks_->facet(places) : nullptr;
-    groups.add(tag, points(places, facet ? facet->periods[1] : Image<3>{}));
-    if (facet && facet->is_open()) groups.add(tag, points(places, facet->periods[0]));
+    const auto add = [&](std::size_t side) {
+      groups.add(facet->is_flat_side() ? facet->side_tags[side] : tag,
+                 points(places, facet->periods[side]));
+    };
+    if (!facet) return groups.add(tag, points(places, {}));
+    add(1);
+    if (facet->is_open()) add(0);
   });
   return groups.of_all(comm_);
 }

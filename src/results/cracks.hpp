@@ -34,7 +34,9 @@ struct CrackFacet {
   // For each side, the periods from `places` to the corners of the facet. Both are equal where a
   // periodic domain is not cut along the facet.
   std::array<Image<3>, 2> periods{};
+  std::array<std::int32_t, 2> side_tags{};  // on a flat side of a periodic domain, else 0
 
+  bool is_flat_side() const { return is_open() && periods[0] != periods[1]; }
   bool is_open() const { return copies[0] != copies[1]; }
 };
 

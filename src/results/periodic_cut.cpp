@@ -234,10 +234,38 @@ class PeriodicCutMaker {
     return periods;
   }
 
-  // A facet between elements in different places is that of one of them.
+  // Returns the axis across which a facet lies on a flat side, where elements on both sides of the
+  // facet have the given periods; -1 for other facets.
+  int flat_axis(const std::array<std::int64_t, Dim>& places, const Image<Dim>& front,
+                const Image<Dim>& back) const {
+    for (int k = 0; k < Dim; ++k) {
+      const auto axis = index(k);
+      if (front[axis] == back[axis] || !results_.domain().is_flat(axis)) continue;
+      const auto on_side = [&](std::int64_t place) {
+        const Point<Dim> x = level_.nodes.position(results_.node_at(place));
+        const Image<Dim> image = cell().image_of_id(id(place));
+        return cell().seen_from(image, x)[axis] == cell().box().low[axis];
+      };
+      if (std::ranges::all_of(places, on_side)) return k;
+    }
+    return -1;
+  }
+
+  // A facet on a flat side is one of both sides. Any other facet between elements in different
+  // places is that of one of them.
   void assemble_facets() {
     results_.for_facets_without_tags([&](const std::array<std::int64_t, Dim>& places) {
       const auto [front, back] = periods_beside(places);
+      if (const int k = flat_axis(places, front, back); k >= 0) {
+        const auto axis = index(k);
+        cut_.facets_.push_back({places,
+                                {indices_at(places, front), indices_at(places, back)},
+                                0,
+                                {in_space(front), in_space(back)},
+                                {results_.domain().side_tag(axis, front[axis] > back[axis]),
+                                 results_.domain().side_tag(axis, back[axis] > front[axis])}});
+        return;
+      }
       const Image<Dim> periods = std::min(front, back);
       const auto copies = indices_at(places, periods);
       if (periods == Image<Dim>{} && std::ranges::all_of(copies, [](auto c) { return c < 0; }))

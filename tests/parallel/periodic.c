@@ -21,10 +21,15 @@ typedef struct {
 } domain_case;
 
 static const domain_case cases[] = {
-    {"graded square", 2, {1, 1}, 0.015, 2, 0, 1}, {"few exchanges", 2, {1, 1}, 0.015, 2, 0, 5},
-    {"channel", 2, {0, 1}, 0.015, 2, 0, 1},       {"hole", 2, {1, 1}, 0.015, 2, 1, 1},
-    {"cube", 3, {1, 1, 1}, 0.1, 0, 0, 1},         {"graded cube", 3, {1, 1, 1}, 0.08, 0.6, 0, 1},
+    {"graded square", 2, {1, 1}, 0.015, 2, 0, 1},
+    {"few exchanges", 2, {1, 1}, 0.015, 2, 0, 5},
+    {"channel", 2, {0, 1}, 0.015, 2, 0, 1},
+    {"hole", 2, {1, 1}, 0.015, 2, 1, 1},
+    {"cube", 3, {1, 1, 1}, 0.1, 0, 0, 1},
+    {"graded cube", 3, {1, 1, 1}, 0.08, 0.6, 0, 1},
     {"layer", 3, {1, 1, 0}, 0.09, 0.4, 0, 1},
+    {"flat sides", 2, {PNPBS_FLAT, PNPBS_FLAT}, 0.02, 1, 1, 1},
+    {"flat layer", 3, {PNPBS_FLAT, PNPBS_FLAT, 0}, 0.12, 0, 0, 1},
 };
 
 static int32_t wave(int64_t n, int32_t dim, const double* x, double* d, void* user) {

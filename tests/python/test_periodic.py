@@ -472,6 +472,9 @@ class Periodic(unittest.TestCase):
         self.assertLess(np.abs(regions[2:] / enclosed - 0.92).max(), 0.03)
 
     def test_unsupported(self):
+        layer = pnpbs.Domain(self.context, 3)
+        self.assert_status(Status.ERROR_UNSUPPORTED, "along axis 0 and not along axis 1",
+                           layer.set_periodic, (0, 0, 0), (1, 1, 1), True, flat=(True, False, True))
         domain = pnpbs.Domain(self.context).set_periodic((0, 0), (1, 1))
         placement = pnpbs.Placement(domain).set_spacing(0.1)
         placement.run()

@@ -160,6 +160,53 @@ class PeriodicFiles(unittest.TestCase):
                     copies = np.flatnonzero(partner != np.arange(len(partner)))
                     self.assertEqual(pairs, dict(zip(copies, partner[copies])))
 
+    def test_flat_sides(self):
+        line = [(LOW[0], 0.5), (0.1, 0.6), (HIGH[0], 0.5)]
+        changes = {
+            "square": (2, True, True, None),
+            "one axis": (2, True, (True, False), None),
+            "hole": (2, True, True, hole),
+            "inclusion": (2, True, True,
+                          lambda domain: domain.add_arc(HIGH[:2], 0.3, tag=5, role="inner")),
+            "channel": (2, (True, False), True, None),
+            "layer": (2, True, True,
+                      lambda domain: domain.add_polyline(line, closed=False, role="inner", tags=7)),
+            "cube": (3, True, True, None),
+            "slab": (3, (True, True, False), True, None),
+        }
+        for name, (dim, axes, flat, change) in changes.items():
+            with self.subTest(name):
+                tags = 11 + np.arange(2 * dim)
+                low, high = LOW[:dim], HIGH[:dim]
+                axes, flat = np.broadcast_to(axes, dim), np.broadcast_to(flat, dim)
+                domain = pnpbs.Domain(self.context, dim).set_periodic(low, high, axes, tags, flat)
+                if change:
+                    change(domain)
+                placement = pnpbs.Placement(domain).set_spacing(0.04 if dim == 2 else 0.15)
+                placement.run()
+                placement.check()
+                mesh = meshio.read(self.write(placement, "a.vtu"))
+                x = mesh.points[:, :dim]
+                self.assertTrue((x[:, flat | ~axes] < high[flat | ~axes] + 1e-12).all())
+                edges = x[mesh.cells[0].data]
+                measures = np.linalg.det(edges[:, 1:] - edges[:, :1]) / (2 if dim == 2 else 6)
+                self.assertAlmostEqual(measures.sum(), domain.measure(), 2 if change else 10)
+                facets = meshio.read(os.path.join(self.folder, "a_facets.vtu"))
+                corners, of_facets = facets.cells[0].data, facets.cell_data["tag"][0]
+                for axis in np.flatnonzero(flat & axes):
+                    sides = []
+                    for side, at in ((2 * axis, low[axis]), (2 * axis + 1, high[axis])):
+                        y = x[corners[of_facets == tags[side]]]
+                        np.testing.assert_allclose(y[..., axis], at, atol=1e-12)
+                        self.assertGreater(len(y), 4)
+                        y = np.round(np.delete(y, axis, axis=2), 9) + 0.0
+                        sides.append({tuple(sorted(map(tuple, facet))) for facet in y})
+                    self.assertEqual(*sides)
+                with open(self.write(placement, "a.msh"), encoding="ascii") as file:
+                    text = file.read()
+                for axis in np.flatnonzero(flat & axes):
+                    self.assertIn(f"\n{dim - 1} {12 + 2 * axis} {11 + 2 * axis} \n16 ", text)
+
     def test_fields_and_other_formats(self):
         placement = self.placements["inclusion"]
         x = placement.nodes().points

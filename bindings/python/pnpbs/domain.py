@@ -493,7 +493,8 @@ class Domain(Handle):
 
     def set_periodic(self, low: ArrayLike, high: ArrayLike,
                      periodic: Union[bool, Sequence[bool]] = True,
-                     tags: Optional[ArrayLike] = None) -> Domain:
+                     tags: Optional[ArrayLike] = None,
+                     flat: Union[bool, Sequence[bool]] = False) -> Domain:
         """Makes the domain a box that repeats itself along some axes. It has no boundary across
         these axes: bubbles on both sides of a seam act on each other. The other sides of the box
         are boundaries. Closed curves and surfaces are holes and cavities or, with the role "inner"
@@ -512,11 +513,17 @@ class Domain(Handle):
         elements of second order, distributed meshes, Voronoi cells, particles and cracks.
 
         - `periodic`: True for all axes, or a value for each axis.
-        - `tags`: those of the other sides, low x, high x, low y and so on; one for all sides or one
-          for each. The default is 1.
+        - `tags`: those of the sides that are not periodic or are flat, low x, high x, low y and so
+          on; one for all sides or one for each. The default is 1.
+        - `flat`: True, or a value for each axis: no element crosses the sides across a periodic
+          axis, nodes lie on them, and opposite sides have the same facets, as solvers need that
+          work on a box. In the plane curves may cross such sides, and each part of a region that
+          they divide needs a point of its own. In space surfaces must not cross them, and all
+          periodic axes or none are flat.
 
         `Placement.run` raises `Status.ERROR_SPACING` if a period is shorter than four spacings."""
-        axes = np.broadcast_to(np.asarray(periodic, dtype=np.int32), self.dim)
+        axes = np.broadcast_to(np.asarray(periodic, dtype=bool), self.dim)
+        axes = axes * np.where(flat, _interface.FLAT, _interface.PERIODIC).astype(np.int32)
         return self._call("set_periodic", as_point(low, self.dim, "low"),
                           as_point(high, self.dim, "high"), np.ascontiguousarray(axes),
                           as_tags(tags, 2 * self.dim, "tags"))

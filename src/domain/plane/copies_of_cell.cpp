@@ -30,10 +30,12 @@ CurveSource image_of(const PeriodicCell<2>& cell, const ImagesNearCell<2>& image
   return source;
 }
 
-CurveSource boundary_line(const Point<2>& begin, const Point<2>& end, std::int32_t tag) {
+CurveSource line_between(const Point<2>& begin, const Point<2>& end, std::int32_t tag,
+                         CurveRole role = CurveRole::boundary) {
   CurveSource line;
   line.kind = CurveSource::Kind::polyline;
-  line.role = CurveRole::boundary;
+  line.number = -1;
+  line.role = role;
   line.tags = {tag};
   line.points = {begin, end};
   return line;
@@ -158,10 +160,17 @@ class PartsOfCurves {
   std::vector<ConnectedPart<2>> parts_;
 };
 
+// Returns whether a line along an axis lies on a lower side of the box.
+bool lies_on_lower_side(const CurveSource& line, const Box<2>& box) {
+  return std::ranges::all_of(line.points, [&](const auto& x) { return x[0] == box.low[0]; }) ||
+         std::ranges::all_of(line.points, [&](const auto& x) { return x[1] == box.low[1]; });
+}
+
 }  // namespace
 
 CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, double reach,
                             const std::array<std::int32_t, 4>& side_tags,
+                            const std::array<bool, 2>& flat,
                             const std::vector<CurveSource>& sources,
                             const std::vector<RegionPoint<2>>& region_points,
                             const std::vector<FixedNode<2>>& fixed_nodes) {
@@ -169,15 +178,20 @@ CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, double reach,
   parts.require_continued(cell);
   const ImagesNearCell<2> images(cell, reach, !region_points.empty(), true, parts.take());
   CopiesOfCell all;
-  // The sides of the cell that bound the domain are lines of one period.
+  // The sides of the cell that bound the domain, or are flat, are lines of one period.
   std::vector<CurveSource> sides;
-  const Box<2>& box = cell.box();
+  const Box<2>&box = cell.box(), outer = images.outer();
   for (std::size_t k = 0; k < 2; ++k) {
+    if (flat[k]) {
+      Point<2> end = box.high;
+      end[k] = box.low[k];
+      sides.push_back(line_between(box.low, end, side_tags[2 * k], CurveRole::inner));
+    }
     if (cell.periodic(static_cast<int>(k))) continue;
     for (std::size_t high = 0; high < 2; ++high) {
       Point<2> begin = box.low, end = box.high;
       begin[k] = end[k] = high != 0 ? box.high[k] : box.low[k];
-      sides.push_back(boundary_line(begin, end, side_tags[2 * k + high]));
+      sides.push_back(line_between(begin, end, side_tags[2 * k + high]));
     }
   }
   images.for_copies([&](const Image<2>& image) {
@@ -187,21 +201,22 @@ CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, double reach,
       all.in_cell.push_back(images.is_home(parts.of(s), image));
     }
     for (const CurveSource& side : sides) {
-      all.sources.push_back(image_of(cell, images, image, side));
+      CurveSource copy = image_of(cell, images, image, side);
+      if (copy.role == CurveRole::inner && lies_on_lower_side(copy, outer)) continue;
+      all.sources.push_back(std::move(copy));
       all.in_cell.push_back(image == Image<2>{});
     }
   });
   all.region_points = images.images_of(region_points);
   all.fixed_nodes = images.images_of(fixed_nodes);
   // The boundary around the copies
-  const Box<2> outer = images.outer();
   const Point<2>&a = outer.low, &b = outer.high;
   for (std::size_t k = 0; k < 2; ++k) {
     if (!cell.periodic(static_cast<int>(k))) continue;
     for (const double at : {a[k], b[k]}) {
       Point<2> begin = a, end = b;
       begin[k] = end[k] = at;
-      all.sources.push_back(boundary_line(begin, end, 1));
+      all.sources.push_back(line_between(begin, end, 1));
       all.in_cell.push_back(0);
     }
   }

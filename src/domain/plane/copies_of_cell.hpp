@@ -23,9 +23,11 @@ struct CopiesOfCell {
 };
 
 // Returns the images of the curves within `reach` of the cell (domain/images_near_cell.hpp), and a
-// boundary around the copies that contain them.
+// boundary around the copies that contain them. Across the axes with `flat`, the sides of each copy
+// are inner curves, so that no element crosses them.
 CopiesOfCell copies_of_cell(const PeriodicCell<2>& cell, double reach,
                             const std::array<std::int32_t, 4>& side_tags,
+                            const std::array<bool, 2>& flat,
                             const std::vector<CurveSource>& sources,
                             const std::vector<RegionPoint<2>>& region_points,
                             const std::vector<FixedNode<2>>& fixed_nodes);

@@ -6,6 +6,7 @@
 namespace pnpbs {
 
 std::string CurveSource::name_prefix() const {
+  if (number < 0) return "a side of the periodic cell, ";
   if (kind != Kind::graph) return "curve " + std::to_string(number) + ", ";
   return number == 0 ? "" : "graph " + std::to_string(number) + ", ";
 }

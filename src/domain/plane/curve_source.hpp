@@ -30,7 +30,8 @@ struct CurveSource {
   };
 
   Kind kind = Kind::polyline;
-  std::int64_t number = 0;               // number among the curves, or among the graphs
+  // Number among the curves, or among the graphs; negative for sides of a periodic cell
+  std::int64_t number = 0;
   CurveRole role = CurveRole::boundary;  // not used for graphs
   bool closed = false;                   // polylines: a segment joins the last point to the first
   std::vector<Point<2>> points;

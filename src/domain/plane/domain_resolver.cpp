@@ -230,17 +230,25 @@ std::shared_ptr<const RegionIndex<2>> regions_of(const std::vector<BoundaryCurve
 class Resolver {
  public:
   Resolver(std::vector<CurveSource>& sources, const std::vector<RegionPoint<2>>& region_points,
-           const std::vector<FixedNode<2>>& fixed_nodes, std::optional<OverlapRule> fragment)
+           const std::vector<FixedNode<2>>& fixed_nodes, std::optional<OverlapRule> fragment,
+           bool split)
       : sources_(sources),
         region_points_(region_points),
         fixed_nodes_(fixed_nodes),
-        fragment_(fragment) {}
+        fragment_(fragment),
+        split_(split) {}
 
   ResolvedDomain run() {
     make_graph();
     std::vector<std::int32_t> solid_tags;  // per face; empty if curves do not meet
     if (fragment_) {
-      solid_tags = split_curves();
+      const CurveSolids solids(sources_, graph_);
+      split_curves();
+      require_no_conflicts();
+      faces_ = find_faces(points_, graph_.ends, sweep_);
+      solid_tags = find_inside_of_solids(solids.around(graph_, faces_), *fragment_);
+    } else if (split_) {
+      split_curves();
     } else if (!sweep_.conflicts.empty()) {
       solid_tags = unite_touching_curves();
     }
@@ -302,10 +310,8 @@ class Resolver {
   }
 
   // ------------------------------------------------------------ solids
-  // Splits curves where they meet and finds the faces in the solids that they describe. Returns the
-  // tag of each face.
-  std::vector<std::int32_t> split_curves() {
-    const CurveSolids solids(sources_, graph_);
+  // Splits curves where they meet.
+  void split_curves() {
     const double size = graph_.size;
     for (int round = 0; round < kMostSplittings && has_conflicts(); ++round) {
       const auto pairs = crossing_edges(graph_, points_);
@@ -317,9 +323,6 @@ class Resolver {
       }
       join(Unite::all, size);
     }
-    require_no_conflicts();
-    faces_ = find_faces(points_, graph_.ends, sweep_);
-    return find_inside_of_solids(solids.around(graph_, faces_), *fragment_);
   }
 
   // Unites edges of different curves that lie on each other, if this leaves no conflicts and no
@@ -444,6 +447,7 @@ class Resolver {
         for (const std::int32_t vertex : graph_.ends[e]) ++kept_degree_[vertex];
         continue;
       }
+      if (sources_[graph_.edges[e].source].number < 0) continue;  // a flat side within a hole
       const std::string name = edge_name(static_cast<std::int32_t>(e));
       if (left_out.empty() || left_out.back() != name) left_out.push_back(name);
     }
@@ -587,6 +591,7 @@ class Resolver {
   const std::vector<RegionPoint<2>>& region_points_;
   const std::vector<FixedNode<2>>& fixed_nodes_;
   std::optional<OverlapRule> fragment_;
+  bool split_;
   std::vector<Point<2>> crossings_;  // found so far
   DomainGraph graph_;
   std::vector<Point<2>> points_;  // vertices of the graph, then region points
@@ -605,8 +610,8 @@ class Resolver {
 ResolvedDomain resolve_domain(std::vector<CurveSource>& sources,
                               const std::vector<RegionPoint<2>>& region_points,
                               const std::vector<FixedNode<2>>& fixed_nodes,
-                              std::optional<OverlapRule> fragment) {
-  return Resolver(sources, region_points, fixed_nodes, fragment).run();
+                              std::optional<OverlapRule> fragment, bool split) {
+  return Resolver(sources, region_points, fixed_nodes, fragment, split).run();
 }
 
 }  // namespace pnpbs

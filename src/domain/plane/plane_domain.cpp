@@ -409,8 +409,9 @@ void PlaneDomain::check_periodic() {
   if (auto warning = snap_loose_points(sources_, given_nodes_, snap_))
     add_warning(std::move(*warning));
   CopiesOfCell copies =
-      copies_of_cell(cell_, reach_, side_tags_, sources_, region_points_, given_nodes_);
-  resolved_ = resolve_domain(copies.sources, copies.region_points, copies.fixed_nodes, fragment_);
+      copies_of_cell(cell_, reach_, side_tags_, flat_, sources_, region_points_, given_nodes_);
+  resolved_ = resolve_domain(copies.sources, copies.region_points, copies.fixed_nodes, fragment_,
+                             std::ranges::count(flat_, true) > 0);
   resolved_.area = area_of_cell(cell_, resolved_.curves, copies.in_cell);
   resolved_.warnings.insert(resolved_.warnings.begin(), given_warnings_.begin(),
                             given_warnings_.end());

@@ -32,15 +32,25 @@ constexpr double kSameOnSides = 1e-9;
 class SidesOfBox {
  public:
   SidesOfBox(const PeriodicCell<3>& cell, const Image<3>& copies,
-             const std::array<std::int32_t, 6>& tags)
+             const std::array<std::int32_t, 6>& tags, const std::array<bool, 3>& flat)
       : cell_(cell), copies_(copies) {
     surface_.name = "the periodic cell";
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t high = 0; high < 2; ++high)
         add_side(axis, high != 0,
                  cell.periodic(static_cast<int>(axis)) ? 1 : tags[2 * axis + high]);
+    inner_.role = SurfaceRole::inner;
+    inner_.name = "the flat sides of the periodic cell";
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::int32_t part = 1; flat[axis] && part < parts(axis); ++part)
+        add_section(inner_, axis, part, true, tags[2 * axis]);
   }
-  SurfaceSource take() { return std::move(surface_); }
+  // Returns the surface of the box, and the flat sides of the copies inside, if there are any.
+  std::vector<SurfaceSource> take() {
+    std::vector<SurfaceSource> surfaces{std::move(surface_)};
+    if (!inner_.triangles.empty()) surfaces.push_back(std::move(inner_));
+    return surfaces;
+  }
 
  private:
   std::int32_t parts(std::size_t axis) const { return 2 * copies_[axis] + 1; }
@@ -51,18 +61,24 @@ class SidesOfBox {
   }
 
   void add_side(std::size_t axis, bool high, std::int32_t tag) {
+    add_section(surface_, axis, high ? parts(axis) : 0, high, tag);
+  }
+
+  // Adds the section of the box across the axis below this part of it, seen from above or below.
+  void add_section(SurfaceSource& surface, std::size_t axis, std::int32_t part, bool above,
+                   std::int32_t tag) const {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const auto vertex = [&](std::int32_t i, std::int32_t j) {
       Point<3> x;
-      x[axis] = coordinate(axis, high ? parts(axis) : 0);
+      x[axis] = coordinate(axis, part);
       x[u] = coordinate(u, i);
       x[v] = coordinate(v, j);
-      surface_.vertices.push_back(x);
-      return static_cast<std::int32_t>(surface_.vertices.size()) - 1;
+      surface.vertices.push_back(x);
+      return static_cast<std::int32_t>(surface.vertices.size()) - 1;
     };
     const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-      surface_.triangles.push_back(high ? std::array{a, b, c} : std::array{a, c, b});
-      surface_.tags.push_back(tag);
+      surface.triangles.push_back(above ? std::array{a, b, c} : std::array{a, c, b});
+      surface.tags.push_back(tag);
     };
     for (std::int32_t i = 0; i < parts(u); ++i)
       for (std::int32_t j = 0; j < parts(v); ++j) {
@@ -75,7 +91,7 @@ class SidesOfBox {
 
   const PeriodicCell<3>& cell_;
   const Image<3>& copies_;
-  SurfaceSource surface_;
+  SurfaceSource surface_, inner_;
 };
 
 // Triangles that are connected by edges form a part if they are closed. Any other triangle is a
@@ -280,6 +296,7 @@ std::vector<Point<3>> corners_of_walls(const PeriodicCell<3>& cell) {
 
 CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, double reach, bool divides,
                                 const std::array<std::int32_t, 6>& side_tags,
+                                const std::array<bool, 3>& flat,
                                 const std::vector<SurfaceSource>& surfaces,
                                 const std::vector<RegionPoint<3>>& region_points,
                                 const std::vector<FixedNode<3>>& fixed_nodes) {
@@ -288,8 +305,9 @@ CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, double reach, bool 
   const ImagesNearCell<3> images(cell, reach, !region_points.empty(), divides, parts.take());
   CopiesOfSurfaces all;
   all.touch = divides && images.any_open();
-  all.surfaces.push_back(SidesOfBox(cell, images.copies(), side_tags).take());
-  all.in_cell.assign(all.surfaces[0].triangles.size(), 0);
+  all.surfaces = SidesOfBox(cell, images.copies(), side_tags, flat).take();
+  for (const SurfaceSource& sides : all.surfaces)
+    all.in_cell.resize(all.in_cell.size() + sides.triangles.size(), 0);
   images.for_copies([&](const Image<3>& image) {
     const std::size_t* part = parts.of_triangles().data();
     for (const SurfaceSource& surface : surfaces) {

@@ -26,6 +26,7 @@ struct CopiesOfSurfaces {
 // where they meet.
 CopiesOfSurfaces copies_of_cell(const PeriodicCell<3>& cell, double reach, bool divides,
                                 const std::array<std::int32_t, 6>& side_tags,
+                                const std::array<bool, 3>& flat,
                                 const std::vector<SurfaceSource>& surfaces,
                                 const std::vector<RegionPoint<3>>& region_points,
                                 const std::vector<FixedNode<3>>& fixed_nodes);

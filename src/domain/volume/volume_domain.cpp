@@ -487,8 +487,8 @@ void VolumeDomain::check_periodic() {
                            return surface.role == SurfaceRole::inner;
                          });
   const bool divides = fragment_ || (all_inner && !repair_);
-  CopiesOfSurfaces copies =
-      copies_of_cell(cell_, reach_, divides, side_tags_, surfaces_, region_points_, given_nodes_);
+  CopiesOfSurfaces copies = copies_of_cell(cell_, reach_, divides, side_tags_, flat_, surfaces_,
+                                           region_points_, given_nodes_);
   VolumeDomain copied = *this;
   copied.cell_ = {};
   if (copies.touch && !fragment_) copied.fragment_ = OverlapRule::last;

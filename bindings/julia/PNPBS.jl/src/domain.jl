@@ -490,7 +490,7 @@ function set_fragment!(domain::Domain, overlap::Symbol = :last)
 end
 
 """
-    set_periodic!(domain, low, high, periodic = true; tags = nothing)
+    set_periodic!(domain, low, high, periodic = true; tags = nothing, flat = false)
 
 Makes the domain a box that repeats itself along some axes. It has no boundary across these axes:
 bubbles on both sides of a seam act on each other. The other sides of the box are boundaries. Closed
@@ -509,17 +509,25 @@ in space. Not yet for a periodic domain, but `:error_unsupported`: files with el
 distributed meshes, Voronoi cells, particles and cracks. [`run!`](@ref) and [`initialise!`](@ref) throw
 `:error_spacing` if a period is shorter than four spacings.
 
-`periodic` is true for all axes, or has a value for each axis. `tags` are those of the other sides:
-low x, high x, low y and so on; all are 1 without them.
+`periodic` is true for all axes, or has a value for each axis. `tags` are those of the sides that
+are not periodic or are flat: low x, high x, low y and so on; all are 1 without them. `flat` is true,
+or has a value for each axis: no element crosses the sides across a periodic axis, nodes lie on them,
+and opposite sides have the same facets, as solvers need that work on a box. In the plane curves may
+cross such sides. In space surfaces must not, and all periodic axes or none are flat.
 """
-function set_periodic!(domain::Domain, low, high, periodic = true; tags = nothing)
+function set_periodic!(domain::Domain, low, high, periodic = true; tags = nothing,
+                       flat = false)
     dim = ndims(domain)
     axes = periodic isa Bool ? fill(periodic, dim) : collect(Bool, periodic)
     length(axes) == dim ||
         throw(DimensionMismatch("periodic has $(length(axes)) values, expected $dim"))
+    sides = flat isa Bool ? fill(flat, dim) : collect(Bool, flat)
+    length(sides) == dim ||
+        throw(DimensionMismatch("flat has $(length(sides)) values, expected $dim"))
+    values = ifelse.(sides, LibPNPBS.PNPBS_FLAT, LibPNPBS.PNPBS_PERIODIC)
     check(domain.context,
           LibPNPBS.pnpbs_domain_set_periodic(live(domain), as_point(low, dim, "low"),
-                                             as_point(high, dim, "high"), Int32.(axes),
+                                             as_point(high, dim, "high"), Int32.(axes .* values),
                                              as_tags(tags, 2 * dim, "tags")))
     return domain
 end
