@@ -55,6 +55,7 @@ def constant_differences(constants, interface):
     for prefix, codes in (("WARNING", warnings.WarningCode), ("REASON", errors.ErrorReason)):
         own |= {f"PNPBS_{prefix}_{code.name}": code.value for code in codes}
     own |= {"PNPBS_BOUNDARY": interface.BOUNDARY, "PNPBS_INNER": interface.INNER}
+    own |= {f"PNPBS_{name}": getattr(interface, name) for name in ("BOUNDED", "PERIODIC", "FLAT")}
     own |= {f"PNPBS_OVERLAP_{name.upper()}": rule for name, rule in interface.OVERLAPS.items()}
     for name in sorted(set(wanted) | set(own)):
         if wanted.get(name) != own.get(name):

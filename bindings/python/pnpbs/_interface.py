@@ -18,7 +18,9 @@ from ._library import open_library
 BOUNDARY = 0
 INNER = 1
 OVERLAPS = {"last": 0, "first": 1, "own": 2}
-PERIODIC, FLAT = 1, 2
+BOUNDED = 0
+PERIODIC = 1
+FLAT = 2
 
 DECLARATIONS = """
 const char *pnpbs_status_string(pnpbs_status status);
