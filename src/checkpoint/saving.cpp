@@ -219,14 +219,12 @@ LocalReduction<Dim> held_in(const SavedState& state) {
 }
 
 // Returns the fingerprint of the domain that the user gives. The domain of a level has further
-// copies of a periodic cell.
+// images of a periodic cell.
 template <int Dim>
 std::uint64_t fingerprint_of_given(const Domain<Dim>& domain) {
   if (!domain.cell().any()) return fingerprint_of(domain);
   Domain<Dim> given = domain;
-  Image<Dim> copies{};
-  for (int k = 0; k < Dim; ++k) copies[k] = domain.cell().periodic(k);
-  given.set_copies(copies);
+  given.set_reach(0);
   given.check();
   return fingerprint_of(given);
 }
