@@ -24,7 +24,6 @@ set(PNPBS_TESTS_OF_quick
     parallel_adapt parallel_adapting parallel_assembly parallel_background parallel_distributed_mesh
     parallel_exchange parallel_faults_1 parallel_faults_3 parallel_fields parallel_files
     parallel_long_lists parallel_memory_2 parallel_mesh_files parallel_node_hashes parallel_periodic
-    parallel_periodic_calls
     parallel_redundancy
     parallel_restart parallel_soak_3 parallel_sparse_exchange parallel_sphere_fields parallel_star_questions
     parallel_transfer parallel_tree_part parallel_volume_halo parallel_volume_partition
@@ -34,7 +33,7 @@ set(PNPBS_TESTS_OF_quick
     command_input command_mpas command_regions command_shape_spacing command_stopping volume_files
     # languages
     fortran_library fortran_domain fortran_placement fortran_ranks_3
-    python_declarations python_package python_periodic python_periodic_files python_ranks_3
+    python_declarations python_package python_periodic python_ranks_3
     julia_ccalls julia_package
     # as a library, installed, documented
     linkage_abi linkage_abi_geo linkage_bad_environment linkage_dlopen linkage_exceptions linkage_exports
@@ -60,7 +59,6 @@ set(PNPBS_TESTS_OF_sanitize
     api_small api_sphere api_sphere_again api_surfaces api_tables
     parallel_adapt parallel_assembly parallel_background parallel_distributed_mesh parallel_exchange
     parallel_faults_3 parallel_fields parallel_files parallel_ghost_stars parallel_growth_limit parallel_periodic
-    parallel_periodic_calls
     parallel_kept_stars parallel_long_lists parallel_memory_3 parallel_mesh_files parallel_partition_numbers
     parallel_soak_3 parallel_sparse_exchange parallel_sphere_fields parallel_star_questions
     parallel_surface_fill parallel_transfer parallel_tree_part parallel_unknown_uses_found

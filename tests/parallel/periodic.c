@@ -117,15 +117,18 @@ static void checks(void) {
   expect(pnpbs_context_create_serial(&alone) == PNPBS_OK, "serial context");
   for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
     char here[32], expected[32];
-    pnpbs_placement placement = place(context, &cases[k]), reference = place(alone, &cases[k]);
+    pnpbs_placement placement = place(context, &cases[k]), reference = NULL;
     hash_of_nodes(placement, here);
-    hash_of_nodes(reference, expected);
-    expect(strcmp(here, expected) == 0, cases[k].name);
+    if (rank == 0) {
+      reference = place(alone, &cases[k]);
+      hash_of_nodes(reference, expected);
+      expect(strcmp(here, expected) == 0, cases[k].name);
+    }
     expect_images(placement, &cases[k]);
     expect_same_file(placement, reference, "msh", cases[k].name);
     expect_same_file(placement, reference, "vtu", cases[k].name);
     pnpbs_placement_destroy(&placement);
-    pnpbs_placement_destroy(&reference);
+    if (reference) pnpbs_placement_destroy(&reference);
   }
   pnpbs_context_destroy(&alone);
 }

@@ -21,8 +21,8 @@ typedef struct {
 } domain_case;
 
 static const domain_case cases[] = {
-    {"torus", 2, {1, 1}, 0.05, 0},    {"hole", 2, {1, 1}, 0.05, 1},
-    {"channel", 2, {0, 1}, 0.05, 0},  {"cube", 3, {1, 1, 1}, 0.12, 0},
+    {"torus", 2, {1, 1}, 0.05, 0},
+    {"hole", 2, {1, 1}, 0.05, 1},
     {"layer", 3, {1, 1, 0}, 0.12, 0},
 };
 static pnpbs_context alone; /* the context of the reference */
