@@ -376,8 +376,8 @@ PNPBS_API pnpbs_status pnpbs_domain_set_resurfaced(pnpbs_domain domain, double r
 PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t overlap);
 
 /** An axis in pnpbs_domain_set_periodic. PNPBS_BOUNDED: the sides across it bound the domain.
- *  PNPBS_PERIODIC: the domain repeats itself along it. PNPBS_FLAT: as PNPBS_PERIODIC, and no element
- *  crosses the sides. */
+ *  PNPBS_PERIODIC: the domain repeats itself along it. PNPBS_FLAT: as PNPBS_PERIODIC, and no
+ *  element crosses the sides. */
 #define PNPBS_BOUNDED 0
 #define PNPBS_PERIODIC 1
 #define PNPBS_FLAT 2
@@ -408,14 +408,16 @@ PNPBS_API pnpbs_status pnpbs_domain_set_fragment(pnpbs_domain domain, int32_t ov
  *  partner, for a copy the index of its node, for a node its own. Other files with elements have
  *  the copies as nodes, but for .pvtu, .gr3 and .2dm, which are PNPBS_ERROR_UNSUPPORTED.
  *
- *  Local. Errors: PNPBS_ERROR_ARGUMENT. pnpbs_placement_initialise and _run return
- *  PNPBS_ERROR_SPACING if a period is shorter than four spacings.
- *  @param[in] low, high  [dim] corners of the box
  *  PNPBS_FLAT is for solvers that need a box: nodes lie on the sides as well, and opposite sides
- *  have the same facets. In the plane curves may cross such sides, and each part of a region that they
- *  divide needs a point of its own. In space surfaces must not cross them, and all periodic axes or
- *  none are flat (otherwise PNPBS_ERROR_UNSUPPORTED).
+ *  have the same facets. In the plane curves may cross such sides, and each part of a region that
+ *  they divide needs a point of its own. In space surfaces must not cross them, and all periodic
+ *  axes or none are flat (otherwise PNPBS_ERROR_UNSUPPORTED).
  *
+ *  Local. Errors: PNPBS_ERROR_ARGUMENT. Calls that resolve the domain return PNPBS_ERROR_DOMAIN if
+ *  a curve or surface ends on a periodic side and none goes on at the opposite side.
+ *  pnpbs_placement_initialise and _run return PNPBS_ERROR_SPACING if a period is shorter than four
+ *  spacings, or if a function d differs by more than 30 % between opposite sides.
+ *  @param[in] low, high  [dim] corners of the box
  *  @param[in] periodic   [dim] PNPBS_BOUNDED, PNPBS_PERIODIC or PNPBS_FLAT
  *  @param[in] tags       [2 dim] of the sides that are not PNPBS_PERIODIC: low x, high x, low y,
  *                        ...; NULL: all are 1 */
@@ -1293,7 +1295,8 @@ PNPBS_API pnpbs_status pnpbs_placement_get_incident_elements(pnpbs_placement pla
  *  would fold, or its Jacobian fall below a tenth of that of the straight one, its edges are
  *  straight. Edges, numbers and mid nodes are the same for any number of ranks; several ranks may
  *  have an edge. In a periodic domain a rank may have several images of an edge. They have the same
- *  number, and their mid nodes differ by whole periods. Collective. Call with capacity 0 to get the count; arrays may be NULL.
+ *  number, and their mid nodes differ by whole periods. Collective. Call with capacity 0 to get the
+ *  count; arrays may be NULL.
  *  @param[in] capacity    edges the arrays have room for; too small is PNPBS_ERROR_CAPACITY
  *  @param[out] count      number of edges
  *  @param[out] straight   edges of all ranks that are straight lest an element folds; may be NULL

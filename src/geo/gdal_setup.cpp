@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <mutex>
+#include <string>
 #include <system_error>
 
 namespace pnpbs::geo {

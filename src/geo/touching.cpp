@@ -21,8 +21,7 @@ constexpr double spike = 1e-3;
 // A grid of cells with the vertices in them. Vertices for which `is_meant` is 0 are left out.
 class PlaceGrid {
  public:
-  PlaceGrid(const std::vector<Point<2>>& points, const std::vector<char>& is_meant)
-      : points_(points) {
+  PlaceGrid(const std::vector<Point<2>>& points, const std::vector<char>& is_meant) {
     high_ = low_ = points.front();
     for (const Point<2>& point : points)
       for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -83,7 +82,6 @@ class PlaceGrid {
     return static_cast<std::size_t>(index(point[0], 0) * side_ + index(point[1], 1));
   }
 
-  const std::vector<Point<2>>& points_;
   Point<2> low_, high_;
   std::int64_t side_ = 1;
   std::vector<std::size_t> begin_;

@@ -90,8 +90,7 @@ class PeriodicCutMaker {
       level_.stars.for_simplices(
           i, [&](const Corners& others) { node.images.push_back(periods_of(i, others)); });
       std::ranges::sort(node.images);
-      const auto repeated = std::ranges::unique(node.images);
-      node.images.erase(repeated.begin(), repeated.end());
+      node.images.erase(std::unique(node.images.begin(), node.images.end()), node.images.end());
       if (node.images.empty() || (node.images.size() == 1 && node.images[0] == Image<Dim>{}))
         continue;
       if (const auto home = std::ranges::find(node.images, Image<Dim>{}); home != node.images.end())
@@ -122,8 +121,7 @@ class PeriodicCutMaker {
         if (!level_.nodes.owned(j)) ranks.push_back(results_.owner_of(j));
       });
       std::ranges::sort(ranks);
-      const auto repeated = std::ranges::unique(ranks);
-      ranks.erase(repeated.begin(), repeated.end());
+      ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
       for (std::size_t k = 0; k < node.images.size(); ++k) {
         if (node.images[k] == Image<Dim>{}) continue;
         Record record{id(node.place), node.images[k], number(node, k), kOriginal};

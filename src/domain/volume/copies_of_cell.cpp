@@ -188,10 +188,13 @@ class PartsOfSurfaces {
           at->second.push_back(
               unit_vector(area_normal(surface_.corners(static_cast<std::int32_t>(t)))));
     std::vector<Point<3>> points;
-    for (const auto& [v, of] : normals)
-      if (std::ranges::any_of(of,
-                              [&](const Point<3>& n) { return std::fabs(dot(n, of[0])) < cosine; }))
-        points.push_back(vertex(v));
+    for (const auto& at : normals) {
+      const std::vector<Point<3>>& around = at.second;
+      const auto is_other = [&](const Point<3>& n) {
+        return std::fabs(dot(n, around[0])) < cosine;
+      };
+      if (std::ranges::any_of(around, is_other)) points.push_back(vertex(at.first));
+    }
     return points;
   }
 
