@@ -12,6 +12,10 @@ enum { MAX_DIM = 3 };
 static const double low[MAX_DIM] = {-0.3, 0.2, 1}, high[MAX_DIM] = {0.7, 1.5, 1.9};
 static const double turn = 6.283185307179586;
 
+#ifndef CASES_APART
+#define CASES_APART 1 /* sanitized code runs some of the cases only */
+#endif
+
 typedef struct {
   const char* name;
   int32_t dim, periodic[MAX_DIM];
@@ -115,7 +119,7 @@ static void checks(void) {
   pnpbs_context alone;
   size_t k;
   expect(pnpbs_context_create_serial(&alone) == PNPBS_OK, "serial context");
-  for (k = 0; k < sizeof cases / sizeof *cases; ++k) {
+  for (k = 0; k < sizeof cases / sizeof *cases; k += CASES_APART) {
     char here[32], expected[32];
     pnpbs_placement placement = place(context, &cases[k]), reference = NULL;
     hash_of_nodes(placement, here);
