@@ -107,17 +107,13 @@ void ImagesNearCell<Dim>::for_parts_around(const Point<Dim>& x, const Visit& vis
     last[k] = static_cast<std::int32_t>(std::floor((x[k] - bounds_.low[k]) / period));
     if (first[k] > last[k]) return;
   }
-  for (Image<Dim> image = first;;) {
+  for_images(first, last, [&](const Image<Dim>& image) {
     const Point<Dim> at = cell_.seen_from(image, x);
     boxes_.for_holding(at, [&](std::int32_t p) {
       const ConnectedPart<Dim>& part = parts_[static_cast<std::size_t>(p)];
       if (part.closed && part.encloses(at)) visit(static_cast<std::size_t>(p), image);
     });
-    std::size_t k = 0;
-    while (k < Dim && image[k] == last[k]) image[k] = first[k], ++k;
-    if (k == Dim) return;
-    ++image[k];
-  }
+  });
 }
 
 // Returns whether the domain has all parts around a point in this copy of the cell. Parts that are

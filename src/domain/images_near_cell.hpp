@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/image_range.hpp"
 #include "base/periodic_cell.hpp"
 #include "domain/domain_base.hpp"
 #include "tree/box_tree.hpp"
@@ -54,15 +55,9 @@ class ImagesNearCell {
   // Calls visit(image) for the copies of the cell, in a fixed order.
   template <class Visit>
   void for_copies(const Visit& visit) const {
-    Image<Dim> image;
-    for (std::size_t k = 0; k < Dim; ++k) image[k] = -copies_[k];
-    while (true) {
-      visit(image);
-      std::size_t k = 0;
-      while (k < Dim && image[k] == copies_[k]) image[k] = -copies_[k], ++k;
-      if (k == Dim) return;
-      ++image[k];
-    }
+    Image<Dim> first;
+    for (std::size_t k = 0; k < Dim; ++k) first[k] = -copies_[k];
+    for_images(first, copies_, visit);
   }
   // Returns the image of a point.
   Point<Dim> moved(const Image<Dim>& image, const Point<Dim>& x) const {

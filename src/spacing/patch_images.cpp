@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/image_range.hpp"
 #include "base/rank_limit.hpp"
 
 namespace pnpbs {
@@ -33,13 +34,9 @@ class PatchImages {
       low[k] -= margin * cell_.period(k);
       high[k] += margin * cell_.period(k);
     }
-    const Image<Dim> first = cell_.image_of(low), last = cell_.image_of(high);
-    Image<Dim> image = first;
-    for (int k = 0; k < Dim;) {
+    pnpbs::for_images(cell_.image_of(low), cell_.image_of(high), [&](const Image<Dim>& image) {
       if (image != Image<Dim>{}) copy(image);
-      for (k = 0; k < Dim && image[k] == last[k]; ++k) image[k] = first[k];
-      if (k < Dim) ++image[k];
-    }
+    });
   }
 
   // Returns the image of a row of nodes for which the copy `image` is seen as the cell.
